@@ -1,0 +1,32 @@
+# add_module(name SOURCES ... LINKS ... [PRIVATE_LINKS ...])
+# One static library per folder. LINKS are the modules whose headers it may include; the test
+# style.includes reads the same list.
+function(add_module name)
+  cmake_parse_arguments(M "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  add_library(flowslide_${name} STATIC ${M_SOURCES})
+  add_library(flowslide::${name} ALIAS flowslide_${name})
+  target_link_libraries(flowslide_${name} PUBLIC flowslide_options ${M_LINKS}
+                        PRIVATE flowslide_warnings ${M_PRIVATE_LINKS})
+endfunction()
+
+# add_module_tests(name SOURCES a.test.cpp ... [LINKS ...])
+# Sources are relative to tests/<name>/; one executable per module.
+function(add_module_tests name)
+  if(NOT FLOWSLIDE_TESTS)
+    return()
+  endif()
+  cmake_parse_arguments(T "" "" "SOURCES;LINKS" ${ARGN})
+  list(TRANSFORM T_SOURCES PREPEND "${PROJECT_SOURCE_DIR}/tests/${name}/")
+  add_executable(test_${name} ${T_SOURCES})
+  target_link_libraries(test_${name} PRIVATE flowslide::${name} ${T_LINKS} flowslide_warnings flowslide_catch_main)
+  target_compile_definitions(test_${name} PRIVATE
+    FLOWSLIDE_FIXTURES="${PROJECT_SOURCE_DIR}/fixtures" FLOWSLIDE_SOURCE="${PROJECT_SOURCE_DIR}")
+  catch_discover_tests(test_${name} TEST_PREFIX "${name}." PROPERTIES LABELS unit)
+endfunction()
+
+if(FLOWSLIDE_TESTS)
+  find_package(Catch2 2.13 REQUIRED)
+  include(Catch)
+  add_library(flowslide_catch_main STATIC "${PROJECT_SOURCE_DIR}/tests/support/catch_main.cpp")
+  target_link_libraries(flowslide_catch_main PUBLIC Catch2::Catch2)
+endif()

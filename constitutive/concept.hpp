@@ -1,0 +1,68 @@
+#pragma once
+#include "core/voigt.hpp"
+
+#include <array>
+#include <concepts>
+#include <cstdint>
+#include <string_view>
+#include <type_traits>
+
+/// What a constitutive law must be: named parameters, a small state and a pure function.
+namespace flowslide {
+
+enum class Outcome : std::uint8_t { elastic, plastic };
+
+template <class State, int Dim>
+struct StressUpdate {
+  Stress<Dim> stress;
+  State state;
+  Outcome outcome;
+};
+
+/// Isotropic elasticity as every law here uses it.
+struct Elasticity {
+  double bulk;   ///< K [Pa]
+  double shear;  ///< G [Pa]
+  /// From Young's modulus [Pa] and Poisson's ratio [-].
+  static constexpr Elasticity from_young(double youngs_modulus, double poisson_ratio) {
+    return {youngs_modulus / (3.0 * (1.0 - 2.0 * poisson_ratio)),
+            youngs_modulus / (2.0 * (1.0 + poisson_ratio))};
+  }
+};
+
+/// Hooke's law on increments.
+template <int Dim>
+constexpr Stress<Dim> hooke(const Elasticity& e, const Stress<Dim>& s,
+                            const StrainIncrement<Dim>& de) {
+  const double lambda = e.bulk - 2.0 / 3.0 * e.shear;
+  const double volumetric = lambda * (de[0] + de[1] + de[2]);
+  Stress<Dim> r = s;
+  for (int i = 0; i < 3; ++i) r[i] += volumetric + 2.0 * e.shear * de[i];
+  for (int i = 3; i < kVoigt<Dim>; ++i) r[i] += e.shear * de[i];
+  return r;
+}
+
+/// A law M. `State` is an aggregate of doubles, in the order of `state_names`, so that solvers can
+/// keep it as plain arrays. `Constants` are numbers derived once from the parameters: what the
+/// update needs, without a transcendental function per point. `softening_scale` is cell size over
+/// reference length (docs/theory/softening.md).
+template <class M, int Dim>
+concept ConstitutiveModel = std::is_aggregate_v<typename M::Params> &&
+                                std::is_trivially_copyable_v<typename M::State> &&
+                                sizeof(typename M::State) ==
+                                sizeof(double) * M::state_names.size() +
+                                    (M::state_names.empty() ? 1 : 0) &&
+                            requires(const typename M::Params& p, const typename M::Constants& c,
+                                     const typename M::State& s, const Stress<Dim>& sigma,
+                                     const StrainIncrement<Dim>& de, double softening_scale) {
+  { M::name } -> std::convertible_to<std::string_view>;
+  { M::constants(p, softening_scale) } -> std::same_as<typename M::Constants>;
+  { M::initial_state(p) } -> std::same_as<typename M::State>;
+  { M::template update<Dim>(c, s, sigma, de) }
+  noexcept->std::same_as<StressUpdate<typename M::State, Dim>>;
+  { M::elasticity(p) } -> std::same_as<Elasticity>;
+  { M::present_strength(c, s) }
+  noexcept->std::same_as<double>;
+};
+
+}  // namespace flowslide

@@ -1,0 +1,159 @@
+#pragma once
+#include "config/schema.hpp"
+#include "constitutive/concept.hpp"
+#include "constitutive/mohr_coulomb_return.hpp"
+#include "constitutive/principal.hpp"
+#include "constitutive/softening.hpp"
+
+#include <cmath>
+
+namespace flowslide {
+
+/// Mohr-Coulomb with tension cut-off; cohesion and friction angle soften linearly over the
+/// accumulated deviatoric plastic strain. Acts on effective stress: the pore pressure of a point is
+/// part of its state and stays constant. docs/theory/mohr-coulomb.md
+struct MohrCoulomb {
+  static constexpr std::string_view name = "mohr_coulomb";
+  struct Params {
+    double youngs_modulus = kUnset;        ///< E [Pa]
+    double poisson_ratio = kUnset;         ///< nu [-]
+    double cohesion = kUnset;              ///< c [Pa]
+    double friction_angle = kUnset;        ///< phi [rad]
+    double dilation_angle = 0.0;           ///< psi [rad]
+    std::optional<double> tension_cutoff;  ///< [Pa]; unset: the apex c / tan phi, or c if phi = 0
+    std::optional<double> residual_cohesion;        ///< [Pa]; unset: no softening of c
+    std::optional<double> residual_friction_angle;  ///< [rad]; unset: no softening of phi
+    double peak_strain = 0.0;                       ///< eps_q^p where softening starts [-]
+    double residual_strain = 1.0;                   ///< eps_q^p where it ends [-]
+  };
+  struct State {
+    double plastic_strain = 0.0;  ///< accumulated eps_q^p [-]
+    double gap = 0.0;             ///< opened volumetric strain [-]
+    double pore_pressure = 0.0;   ///< u [Pa], constant; effective = total + u
+  };
+  static constexpr std::array<std::string_view, 3> state_names{"plastic_strain", "gap",
+                                                               "pore_pressure"};
+  struct Constants {
+    Elasticity elastic;
+    LinearSoftening softening;
+    double cohesion, cohesion_change;
+    double friction, friction_change;  ///< phi [rad]
+    double m;                          ///< (1 + sin psi) / (1 - sin psi)
+    double tension_cutoff;             ///< [Pa]; infinite if only the apex bounds tension
+  };
+
+  static Elasticity elasticity(const Params& p) {
+    return Elasticity::from_young(p.youngs_modulus, p.poisson_ratio);
+  }
+  static Constants constants(const Params& p, double softening_scale) {
+    const double sin_psi = std::sin(p.dilation_angle);
+    return {elasticity(p),
+            LinearSoftening::scaled(p.peak_strain, p.residual_strain, softening_scale),
+            p.cohesion,
+            p.residual_cohesion.value_or(p.cohesion) - p.cohesion,
+            p.friction_angle,
+            p.residual_friction_angle.value_or(p.friction_angle) - p.friction_angle,
+            (1.0 + sin_psi) / (1.0 - sin_psi),
+            p.tension_cutoff.value_or(std::numeric_limits<double>::infinity())};
+  }
+  static State initial_state(const Params&) { return {}; }
+
+  static double present_strength(const Constants& c, const State& s) noexcept {
+    return c.cohesion + c.cohesion_change * c.softening.degree(s.plastic_strain);
+  }
+
+  /// The surface at the present state.
+  static MohrCoulombSurface surface(const Constants& c, const State& s) noexcept {
+    const double degree = c.softening.degree(s.plastic_strain);
+    const double phi = c.friction + c.friction_change * degree;
+    const double cohesion = c.cohesion + c.cohesion_change * degree;
+    const double sin_phi = sine(phi);
+    const double cos_phi = std::sqrt(1.0 - sin_phi * sin_phi);
+    const double apex = sin_phi > 1e-6 ? cohesion * cos_phi / sin_phi : cohesion;
+    return {(1.0 + sin_phi) / (1.0 - sin_phi), c.m, 2.0 * cohesion * cos_phi / (1.0 - sin_phi),
+            std::min(c.tension_cutoff, apex)};
+  }
+
+  template <int Dim>
+  [[nodiscard]] static StressUpdate<State, Dim> update(const Constants& c, const State& old,
+                                                       const Stress<Dim>& sigma,
+                                                       const StrainIncrement<Dim>& de) noexcept {
+    // (i) elastic predictor in effective stress
+    const double volumetric = de[0] + de[1] + de[2];
+    const GapStep step = close_gap_first(old.gap, volumetric);
+    StrainIncrement<Dim> strain = de;
+    for (int i = 0; i < 3; ++i) strain[i] -= (volumetric - step.volumetric) / 3.0;
+    Stress<Dim> trial = hooke(c.elastic, sigma, strain);
+    for (int i = 0; i < 3; ++i) trial[i] += old.pore_pressure;
+
+    // (ii), (iii) return in principal axes with the strength at the start of the step
+    const MohrCoulombSurface y = surface(c, old);
+    double deviatoric = 0.0, opened = 0.0;
+    Stress<Dim> returned = map_principal(trial, [&](const Sorted3& t) noexcept {
+      const Principal r = return_to_mohr_coulomb(c.elastic, y, {t.hi, t.mid, t.lo});
+      const double d1 = t.hi - r.s1, d2 = t.mid - r.s2, d3 = t.lo - r.s3;
+      const double mean = (d1 + d2 + d3) / 3.0;
+      const double e1 = d1 - mean, e2 = d2 - mean, e3 = d3 - mean;
+      deviatoric = std::sqrt(2.0 / 3.0 * (e1 * e1 + e2 * e2 + e3 * e3)) / (2.0 * c.elastic.shear);
+      // Only what opens at the tension corner closes again; dilation of shear does not.
+      opened = r.s3 >= y.tension ? std::max(0.0, mean) / c.elastic.bulk : 0.0;
+      return Sorted3{r.s1, r.s2, r.s3};
+    });
+    for (int i = 0; i < 3; ++i) returned[i] -= old.pore_pressure;
+
+    StressUpdate<State, Dim> r;
+    r.stress = returned;
+    r.state = old;
+    r.state.plastic_strain = old.plastic_strain + deviatoric;
+    r.state.gap = step.gap + opened;
+    r.outcome = deviatoric > 0.0 || opened > 0.0 ? Outcome::plastic : Outcome::elastic;
+    return r;
+  }
+
+ private:
+  /// sin on [0, 1] to 1e-15 by its Taylor series: the library's would keep loops from vectorising.
+  static double sine(double x) noexcept {
+    const double y = x * x;
+    return x * (1.0 + y * (-1.0 / 6 +
+                           y * (1.0 / 120 + y * (-1.0 / 5040 +
+                                                 y * (1.0 / 362880 +
+                                                      y * (-1.0 / 39916800 +
+                                                           y * (1.0 / 6227020800.0 +
+                                                                y * (-1.0 / 1307674368000.0))))))));
+  }
+};
+static_assert(ConstitutiveModel<MohrCoulomb, 2> && ConstitutiveModel<MohrCoulomb, 3>);
+
+/// Relations between parameters that ranges cannot express. Throws InputError.
+void check(const MohrCoulomb::Params& p);
+
+template <>
+struct Schema<MohrCoulomb::Params> {
+  static constexpr std::string_view doc =
+      "Mohr-Coulomb with tension cut-off and linear softening of cohesion and friction angle.";
+  static void describe(FieldVisitor& v, MohrCoulomb::Params& p) {
+    v.quantity("youngs_modulus", p.youngs_modulus, Dim::stress, {.above = 0.0},
+               "Young's modulus E");
+    v.quantity("poisson_ratio", p.poisson_ratio, Dim::none, {.min = 0.0, .below = 0.5},
+               "Poisson's ratio nu");
+    v.quantity("cohesion", p.cohesion, Dim::stress, {.min = 0.0}, "peak cohesion c");
+    v.quantity("friction_angle", p.friction_angle, Dim::angle, {.min = 0.0, .max = 1.0},
+               "peak friction angle phi");
+    v.quantity("dilation_angle", p.dilation_angle, Dim::angle, {.min = 0.0, .max = 1.0},
+               "dilation angle psi");
+    v.quantity("tension_cutoff", p.tension_cutoff, Dim::stress, {.min = 0.0},
+               "largest tensile stress; left out: the apex c/tan(phi), or c if phi = 0");
+    v.quantity("residual_cohesion", p.residual_cohesion, Dim::stress, {.min = 0.0},
+               "cohesion after softening; left out: no softening of c");
+    v.quantity("residual_friction_angle", p.residual_friction_angle, Dim::angle,
+               {.min = 0.0, .max = 1.0},
+               "friction angle after softening; left out: no softening of phi");
+    v.quantity("peak_strain", p.peak_strain, Dim::none, {.min = 0.0},
+               "deviatoric plastic strain at which softening starts");
+    v.quantity(
+        "residual_strain", p.residual_strain, Dim::none, {.min = 0.0},
+        "deviatoric plastic strain at which softening ends; not above peak_strain: no softening");
+  }
+};
+
+}  // namespace flowslide

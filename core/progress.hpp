@@ -1,0 +1,18 @@
+#pragma once
+#include <atomic>
+#include <functional>
+#include <string_view>
+
+namespace flowslide {
+
+/// What a long computation tells its caller, a few times a second at most.
+struct Progress {
+  /// Share of the work that is done, 0 to 1, and one short line about its state.
+  std::function<void(double fraction, std::string_view text)> report = [](double,
+                                                                          std::string_view) {};
+  /// Set by a signal handler: finish the step, write a checkpoint and throw Interrupted.
+  const std::atomic<bool>* stop_requested = nullptr;
+  [[nodiscard]] bool should_stop() const { return stop_requested && stop_requested->load(); }
+};
+
+}  // namespace flowslide

@@ -1,0 +1,60 @@
+#pragma once
+#include <array>
+#include <cmath>
+
+/// Stress and strain in Voigt form; order and signs in core/conventions.hpp.
+/// `Stress` and `StrainIncrement` are different types so that the factor 2 of engineering shear
+/// cannot cross from one to the other.
+namespace flowslide {
+
+template <int Dim>
+inline constexpr int kVoigt = Dim == 2 ? 4 : 6;
+
+template <int Dim>
+struct Stress {
+  std::array<double, kVoigt<Dim>> v{};
+  double& operator[](int i) { return v[i]; }
+  double operator[](int i) const { return v[i]; }
+  bool operator==(const Stress&) const = default;
+};
+
+template <int Dim>
+struct StrainIncrement {
+  std::array<double, kVoigt<Dim>> v{};
+  double& operator[](int i) { return v[i]; }
+  double operator[](int i) const { return v[i]; }
+};
+
+/// Mean stress p = tr(sigma)/3, tension positive [Pa].
+template <int Dim>
+constexpr double mean_stress(const Stress<Dim>& s) {
+  return (s[0] + s[1] + s[2]) / 3.0;
+}
+
+/// Second deviatoric invariant J2 = 1/2 s:s [Pa2].
+template <int Dim>
+constexpr double j2(const Stress<Dim>& s) {
+  const double p = mean_stress(s);
+  double sum = 0.0;
+  for (int i = 0; i < 3; ++i) sum += 0.5 * (s[i] - p) * (s[i] - p);
+  for (int i = 3; i < kVoigt<Dim>; ++i) sum += s[i] * s[i];
+  return sum;
+}
+
+/// Equivalent shear stress q = sqrt(3 J2) [Pa].
+template <int Dim>
+double equivalent_shear(const Stress<Dim>& s) {
+  return std::sqrt(3.0 * j2(s));
+}
+
+/// eps_q = sqrt(2/3 e:e) of a strain with engineering shear; zz is taken as given.
+template <int Dim>
+double deviatoric_strain(const StrainIncrement<Dim>& e) {
+  const double m = (e[0] + e[1] + e[2]) / 3.0;
+  double sum = 0.0;
+  for (int i = 0; i < 3; ++i) sum += (e[i] - m) * (e[i] - m);
+  for (int i = 3; i < kVoigt<Dim>; ++i) sum += 0.5 * e[i] * e[i];
+  return std::sqrt(2.0 / 3.0 * sum);
+}
+
+}  // namespace flowslide
