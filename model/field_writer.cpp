@@ -1,0 +1,213 @@
+#include "model/field_store.hpp"
+#include "model/hdf5_handle.hpp"
+
+#include <algorithm>
+#include <fcntl.h>
+#include <map>
+#include <unistd.h>
+
+namespace flowslide {
+namespace {
+
+constexpr std::string_view kConventions =
+    "SI units; stress tension positive; pore pressure compression positive; total = effective - "
+    "pore pressure on the normal components; components xx yy zz xy (plane strain) or xx yy zz xy "
+    "yz zx; engineering shear strain; y points up; NaN means unset";
+
+/// Rows of a chunk are bounded because HDF5 limits a chunk to 4 GiB.
+constexpr std::size_t kChunkRows = 1u << 20;
+
+Hdf5Handle text_type(std::size_t length) {
+  Hdf5Handle type(H5Tcopy(H5T_C_S1), &H5Tclose);
+  H5Tset_size(type, std::max<std::size_t>(length, 1));
+  H5Tset_strpad(type, H5T_STR_NULLPAD);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  return type;
+}
+
+bool set_text(hid_t object, const char* name, std::string_view text) {
+  const Hdf5Handle type = text_type(text.size());
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), &H5Sclose);
+  const Hdf5Handle attribute(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT),
+                             &H5Aclose);
+  const std::string bytes = text.empty() ? std::string(1, '\0') : std::string(text);
+  return attribute.valid() && H5Awrite(attribute, type, bytes.data()) >= 0;
+}
+
+bool set_integer(hid_t object, const char* name, std::int64_t value) {
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), &H5Sclose);
+  const Hdf5Handle attribute(
+      H5Acreate2(object, name, H5T_STD_I64LE, space, H5P_DEFAULT, H5P_DEFAULT), &H5Aclose);
+  return attribute.valid() && H5Awrite(attribute, H5T_NATIVE_INT64, &value) >= 0;
+}
+
+/// What is in the page cache of a file or folder goes to the disk.
+bool sync(const std::filesystem::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool done = ::fsync(file) == 0;
+  ::close(file);
+  return done;
+}
+
+}  // namespace
+
+struct FieldWriter::Impl {
+  std::filesystem::path path, partial;
+  Hdf5Handle file;
+  struct Series {
+    Hdf5Handle dataset;
+    Shape row;
+    hsize_t rows = 0;
+  };
+  std::map<std::string, Series> series;
+  bool finished = false;
+
+  /// Creates a dataset of the given extent; `chunk` empty stands for one contiguous block.
+  Hdf5Handle create(const std::string& name, hid_t type, const std::vector<hsize_t>& extent,
+                    const std::vector<hsize_t>& limit, const std::vector<hsize_t>& chunk,
+                    const FieldLabel& label) {
+    const Hdf5Handle space(
+        H5Screate_simple(static_cast<int>(extent.size()), extent.data(), limit.data()), &H5Sclose);
+    const Hdf5Handle links(H5Pcreate(H5P_LINK_CREATE), &H5Pclose);
+    H5Pset_create_intermediate_group(links, 1);
+    const Hdf5Handle layout(H5Pcreate(H5P_DATASET_CREATE), &H5Pclose);
+    H5Pset_obj_track_times(layout, false);
+    if (!chunk.empty()) {
+      H5Pset_chunk(layout, static_cast<int>(chunk.size()), chunk.data());
+      H5Pset_shuffle(layout);
+      H5Pset_deflate(layout, 1);
+      H5Pset_fletcher32(layout);
+    }
+    Hdf5Handle dataset(H5Dcreate2(file, name.c_str(), type, space, links, layout, H5P_DEFAULT),
+                       &H5Dclose);
+    if (!dataset.valid() || !set_text(dataset, "unit", label.unit) ||
+        !set_text(dataset, "convention", label.convention))
+      throw_file_error(partial, name, "cannot be created");
+    return dataset;
+  }
+};
+
+FieldWriter::FieldWriter(const std::filesystem::path& path, std::string_view kind,
+                         int format_version)
+    : impl_(std::make_unique<Impl>()) {
+  start_hdf5();
+  impl_->path = path;
+  impl_->partial = path;
+  impl_->partial += ".partial";
+  const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), &H5Pclose);
+  H5Pset_obj_track_times(creation, false);
+  const Hdf5Handle access = file_access();
+  impl_->file =
+      Hdf5Handle(H5Fcreate(impl_->partial.c_str(), H5F_ACC_TRUNC, creation, access), &H5Fclose);
+  if (!impl_->file.valid()) throw_file_error(impl_->partial, "", "cannot be created");
+  if (!set_text(impl_->file, "kind", kind) ||
+      !set_integer(impl_->file, "format_version", format_version) ||
+      !set_text(impl_->file, "program", "flowslide " FLOWSLIDE_VERSION) ||
+      !set_text(impl_->file, "conventions", kConventions))
+    throw_file_error(impl_->partial, "", "cannot be written");
+}
+
+FieldWriter::~FieldWriter() {
+  if (impl_->finished) return;
+  impl_->series.clear();
+  impl_->file.release();
+  std::error_code ignored;
+  std::filesystem::remove(impl_->partial, ignored);
+}
+
+void FieldWriter::write_array(const std::string& name, Scalar type, const Shape& shape,
+                              const void* data, const FieldLabel& label) {
+  const std::vector<hsize_t> extent(shape.begin(), shape.end());
+  hsize_t count = 1;
+  for (hsize_t n : extent) count *= n;
+  if (type == Scalar::f64)
+    check_finite(impl_->path, name, static_cast<const double*>(data), count, label.nan);
+  std::vector<hsize_t> chunk;
+  if (count > 0) {
+    chunk = extent;
+    chunk[0] = std::min<hsize_t>(chunk[0], kChunkRows);
+  }
+  const Hdf5Handle dataset = impl_->create(name, disk_type(type), extent, extent, chunk, label);
+  if (count > 0 && H5Dwrite(dataset, memory_type(type), H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
+    throw_file_error(impl_->partial, name, "cannot be written");
+}
+
+void FieldWriter::write_table(const std::string& name, const std::vector<std::vector<double>>& rows,
+                              std::size_t columns, const FieldLabel& label) {
+  std::vector<double> flat;
+  for (const std::vector<double>& row : rows) {
+    validate(row.size() == columns, "'{}': dataset '{}': a row has {} values (expected {})",
+             impl_->path.string(), name, row.size(), columns);
+    flat.insert(flat.end(), row.begin(), row.end());
+  }
+  write_array(name, Scalar::f64, {rows.size(), columns}, flat.data(), label);
+}
+
+void FieldWriter::write_texts(const std::string& name, const std::vector<std::string>& texts,
+                              std::string_view convention) {
+  std::size_t length = 1;
+  for (const std::string& text : texts) length = std::max(length, text.size());
+  std::string bytes(texts.size() * length, '\0');
+  for (std::size_t i = 0; i < texts.size(); ++i) texts[i].copy(&bytes[i * length], length);
+  const std::vector<hsize_t> extent{texts.size()};
+  const Hdf5Handle type = text_type(length);
+  const Hdf5Handle dataset =
+      impl_->create(name, type, extent, extent, texts.empty() ? std::vector<hsize_t>{} : extent,
+                    {.unit = "", .convention = convention});
+  if (!texts.empty() && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0)
+    throw_file_error(impl_->partial, name, "cannot be written");
+}
+
+void FieldWriter::append_row(const std::string& name, Scalar type, const Shape& shape,
+                             const void* data, const FieldLabel& label) {
+  hsize_t count = 1;
+  for (std::size_t n : shape) count *= n;
+  validate(count > 0, "'{}': dataset '{}': a row of a series is empty", impl_->path.string(), name);
+  if (type == Scalar::f64)
+    check_finite(impl_->path, name, static_cast<const double*>(data), count, label.nan);
+
+  std::vector<hsize_t> extent(shape.begin(), shape.end());
+  extent.insert(extent.begin(), 1);
+  Impl::Series& series = impl_->series[name];
+  if (!series.dataset.valid()) {
+    std::vector<hsize_t> start = extent, limit = extent, chunk = extent;
+    start[0] = 0;
+    limit[0] = H5S_UNLIMITED;
+    chunk[1] = std::min<hsize_t>(chunk[1], kChunkRows);
+    series.dataset = impl_->create(name, disk_type(type), start, limit, chunk, label);
+    series.row = shape;
+  }
+  validate(series.row == shape, "'{}': dataset '{}': a row has the shape {}, those before had {}",
+           impl_->path.string(), name, shape_text(shape), shape_text(series.row));
+
+  const Hdf5Handle memory(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
+                          &H5Sclose);
+  std::vector<hsize_t> whole = extent, start(extent.size(), 0);
+  start[0] = series.rows;
+  whole[0] = series.rows + 1;
+  bool done = H5Dset_extent(series.dataset, whole.data()) >= 0;
+  const Hdf5Handle space(H5Dget_space(series.dataset), &H5Sclose);
+  done = done && H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, extent.data(),
+                                     nullptr) >= 0;
+  done = done && H5Dwrite(series.dataset, memory_type(type), memory, space, H5P_DEFAULT, data) >= 0;
+  if (!done) throw_file_error(impl_->partial, name, "cannot be written");
+  ++series.rows;
+}
+
+void FieldWriter::finish() {
+  impl_->series.clear();
+  if (H5Fflush(impl_->file, H5F_SCOPE_LOCAL) < 0 || impl_->file.release() < 0 ||
+      !sync(impl_->partial))
+    throw_file_error(impl_->partial, "", "cannot be completed; is the disk full?");
+  std::error_code error;
+  std::filesystem::rename(impl_->partial, impl_->path, error);
+  if (error)
+    throw FileError(fmt::format("'{}' cannot be renamed to '{}' ({})", impl_->partial.string(),
+                                impl_->path.string(), error.message()));
+  impl_->finished = true;
+  const std::filesystem::path folder = impl_->path.parent_path();
+  sync(folder.empty() ? "." : folder);
+}
+
+}  // namespace flowslide

@@ -1,0 +1,90 @@
+#include "model/hdf5_handle.hpp"
+
+#include <cmath>
+#include <cstdlib>
+
+namespace flowslide {
+
+void start_hdf5() {
+  static const bool started = [] {
+    H5open();
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    H5PLset_loading_state(0);
+    return true;
+  }();
+  static_cast<void>(started);
+}
+
+std::string hdf5_error() {
+  std::string text;
+  H5Ewalk2(
+      H5E_DEFAULT, H5E_WALK_UPWARD,
+      [](unsigned n, const H5E_error2_t* entry, void* out) -> herr_t {
+        if (n == 0 && entry->desc) *static_cast<std::string*>(out) = entry->desc;
+        return 0;
+      },
+      &text);
+  for (char& c : text)
+    if (c == '\n' || c == '\r') c = ' ';
+  return text;
+}
+
+void throw_file_error(const std::filesystem::path& file, std::string_view dataset,
+                      std::string_view problem) {
+  const std::string reason = hdf5_error();
+  throw FileError(fmt::format("'{}': {}{}{}", file.string(),
+                              dataset.empty() ? "" : fmt::format("dataset '{}': ", dataset),
+                              problem, reason.empty() ? "" : fmt::format(" ({})", reason)));
+}
+
+std::string shape_text(const Shape& shape) {
+  std::string text = "(";
+  for (std::size_t n : shape) text += fmt::format("{}{}", text.size() > 1 ? ", " : "", n);
+  return text + ")";
+}
+
+hid_t memory_type(Scalar type) {
+  switch (type) {
+    case Scalar::f64:
+      return H5T_NATIVE_DOUBLE;
+    case Scalar::i64:
+      return H5T_NATIVE_INT64;
+    case Scalar::i32:
+      return H5T_NATIVE_INT32;
+    case Scalar::u8:
+      return H5T_NATIVE_UINT8;
+  }
+  std::abort();
+}
+
+hid_t disk_type(Scalar type) {
+  switch (type) {
+    case Scalar::f64:
+      return H5T_IEEE_F64LE;
+    case Scalar::i64:
+      return H5T_STD_I64LE;
+    case Scalar::i32:
+      return H5T_STD_I32LE;
+    case Scalar::u8:
+      return H5T_STD_U8LE;
+  }
+  std::abort();
+}
+
+Hdf5Handle file_access() {
+  Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
+  H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);
+  H5Pset_file_locking(access, false, true);
+  H5Pset_fclose_degree(access, H5F_CLOSE_SEMI);
+  return access;
+}
+
+void check_finite(const std::filesystem::path& file, std::string_view dataset, const double* values,
+                  std::size_t count, Nan nan) {
+  for (std::size_t i = 0; i < count; ++i)
+    validate(std::isfinite(values[i]) || (nan == Nan::allowed && std::isnan(values[i])),
+             "'{}': dataset '{}': value {} is {} (a finite number is needed here)", file.string(),
+             dataset, i, values[i]);
+}
+
+}  // namespace flowslide

@@ -1,0 +1,192 @@
+#include "model/history.hpp"
+
+#include "core/check.hpp"
+#include "model/field_store.hpp"
+
+namespace flowslide {
+namespace {
+
+constexpr std::string_view kKind = "fem_history";
+constexpr int kFormat = 1;
+
+constexpr FieldLabel kTime{.unit = "s", .convention = "from the start of the motion"};
+constexpr FieldLabel kDisplacement{.unit = "m",
+                                   .convention = "nodes, from the reference coordinates"};
+constexpr FieldLabel kVelocity{.unit = "m/s", .convention = "nodes, absolute", .nan = Nan::allowed};
+constexpr FieldLabel kPorePressure{.unit = "Pa", .convention = "nodes, compression positive"};
+constexpr FieldLabel kStress{
+    .unit = "Pa", .convention = "element centres, effective, tension positive, xx yy zz xy"};
+constexpr FieldLabel kStrain{
+    .unit = "-",
+    .convention =
+        "element centres, from the reference, extension positive, engineering shear, "
+        "xx yy zz xy",
+    .nan = Nan::allowed};
+
+/// The one list of arrays of a frame: f(name, label, array, is_nodal).
+template <class Frame, class F>
+void visit_arrays(Frame& frame, F&& f) {
+  f("displacement", kDisplacement, frame.displacement, true);
+  f("velocity", kVelocity, frame.velocity, true);
+  f("pore_pressure", kPorePressure, frame.pore_pressure, true);
+  f("stress", kStress, frame.stress, false);
+  f("strain", kStrain, frame.strain, false);
+}
+
+void write_mesh(FieldWriter& out, const QuadMesh& mesh) {
+  out.write("mesh/nodes", mesh.nodes, {.unit = "m", .convention = "x y, y points up"});
+  out.write("mesh/node_tags", mesh.node_tags, {.unit = "", .convention = "of the source program"});
+  out.write("mesh/elements", mesh.elements,
+            {.unit = "", .convention = "rows of mesh/nodes, counter-clockwise"});
+  out.write("mesh/element_tags", mesh.element_tags,
+            {.unit = "", .convention = "of the source program"});
+  out.write("mesh/element_material", mesh.element_material,
+            {.unit = "", .convention = "material tag of the source program"});
+}
+
+QuadMesh read_mesh(const FieldReader& in) {
+  QuadMesh mesh;
+  mesh.nodes = in.read<Vec2>("mesh/nodes");
+  mesh.node_tags = in.read<std::int64_t>("mesh/node_tags", mesh.num_nodes());
+  mesh.elements = in.read<std::array<std::int32_t, 4>>("mesh/elements");
+  mesh.element_tags = in.read<std::int64_t>("mesh/element_tags", mesh.num_elements());
+  mesh.element_material = in.read<std::int32_t>("mesh/element_material", mesh.num_elements());
+  try {
+    check(mesh);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("'{}': {}", in.path().string(), error.what()));
+  }
+  return mesh;
+}
+
+}  // namespace
+
+struct FemHistoryWriter::Impl {
+  FieldWriter out;
+  std::filesystem::path path;
+  std::size_t num_nodes = 0, num_elements = 0;
+  std::vector<double> times;
+  bool has_gravity = false;
+
+  void check_sizes(const FemFrame& frame) const {
+    visit_arrays(
+        frame, [this, &frame](const char* name, const FieldLabel&, const auto& array, bool nodal) {
+          validate(array.size() == (nodal ? num_nodes : num_elements),
+                   "frame at t = {} s: {} has {} values (the mesh has {} {})", frame.time, name,
+                   array.size(), nodal ? num_nodes : num_elements, nodal ? "nodes" : "elements");
+        });
+  }
+};
+
+FemHistoryWriter::FemHistoryWriter(const std::filesystem::path& path, const QuadMesh& mesh,
+                                   const HistoryOrigin& origin) {
+  check(mesh);
+  impl_.reset(new Impl{.out = FieldWriter(path, kKind, kFormat),
+                       .path = path,
+                       .num_nodes = mesh.num_nodes(),
+                       .num_elements = mesh.num_elements(),
+                       .times = {}});
+  write_mesh(impl_->out, mesh);
+  impl_->out.write_texts("origin/program", {origin.program});
+  impl_->out.write_texts("origin/sigma_zz_rule", {origin.sigma_zz_rule});
+  impl_->out.write_texts("origin/notes", origin.notes);
+}
+
+FemHistoryWriter::~FemHistoryWriter() = default;
+
+void FemHistoryWriter::set_gravity(const FemFrame& frame) {
+  validate(!impl_->has_gravity && impl_->times.empty(),
+           "'{}': the gravity frame is set once, before the first frame", impl_->path.string());
+  impl_->check_sizes(frame);
+  impl_->out.write("gravity/time", std::vector<double>{frame.time}, kTime);
+  visit_arrays(frame, [this](const char* name, const FieldLabel& label, const auto& array, bool) {
+    impl_->out.write(std::string("gravity/") + name, array, label);
+  });
+  impl_->has_gravity = true;
+}
+
+void FemHistoryWriter::append(const FemFrame& frame) {
+  validate(impl_->has_gravity,
+           "'{}': the gravity frame must come before the first frame (r_u refers to it)",
+           impl_->path.string());
+  validate(frame.time > (impl_->times.empty() ? -1e300 : impl_->times.back()),
+           "frame {} is at t = {} s (times must increase, the frame before is at {} s)",
+           impl_->times.size(), frame.time, impl_->times.empty() ? kUnset : impl_->times.back());
+  impl_->check_sizes(frame);
+  visit_arrays(frame, [this](const char* name, const FieldLabel& label, const auto& array, bool) {
+    impl_->out.append(std::string("frames/") + name, array, label);
+  });
+  impl_->times.push_back(frame.time);
+}
+
+void FemHistoryWriter::finish() {
+  validate(impl_->has_gravity, "'{}': the gravity frame is missing (r_u refers to it)",
+           impl_->path.string());
+  impl_->out.write("frames/time", impl_->times, kTime);
+  impl_->out.finish();
+}
+
+struct FemHistory::Impl {
+  FieldReader in;
+  QuadMesh mesh;
+  HistoryOrigin origin;
+  FemFrame gravity;
+  std::vector<double> times;
+};
+
+FemHistory::FemHistory(const std::filesystem::path& path)
+    : impl_(new Impl{.in = FieldReader(path, kKind, kFormat),
+                     .mesh = {},
+                     .origin = {},
+                     .gravity = {},
+                     .times = {}}) {
+  const FieldReader& in = impl_->in;
+  impl_->mesh = read_mesh(in);
+  impl_->origin.program = in.read_texts("origin/program", 1)[0];
+  impl_->origin.sigma_zz_rule = in.read_texts("origin/sigma_zz_rule", 1)[0];
+  impl_->origin.notes = in.read_texts("origin/notes");
+  impl_->gravity.time = in.read_one<double>("gravity/time");
+  visit_arrays(impl_->gravity, [this, &in](const char* name, const FieldLabel& label, auto& array,
+                                           bool nodal) {
+    using T = typename std::decay_t<decltype(array)>::value_type;
+    array = in.read<T>(std::string("gravity/") + name,
+                       nodal ? impl_->mesh.num_nodes() : impl_->mesh.num_elements(), label.nan);
+  });
+  impl_->times = in.read<double>("frames/time");
+  for (std::size_t i = 1; i < impl_->times.size(); ++i)
+    validate(impl_->times[i] > impl_->times[i - 1],
+             "'{}': frame {} is at t = {} s, after {} s (times must increase)", path.string(), i,
+             impl_->times[i], impl_->times[i - 1]);
+  if (impl_->times.empty()) return;
+  visit_arrays(impl_->gravity, [this, &in](const char* name, auto&, auto&, bool) {
+    const std::size_t rows = in.rows(std::string("frames/") + name);
+    validate(rows == impl_->times.size(), "'{}': dataset 'frames/{}' has {} frames (expected {})",
+             in.path().string(), name, rows, impl_->times.size());
+  });
+}
+
+FemHistory::~FemHistory() = default;
+FemHistory::FemHistory(FemHistory&&) noexcept = default;
+FemHistory& FemHistory::operator=(FemHistory&&) noexcept = default;
+
+const QuadMesh& FemHistory::mesh() const { return impl_->mesh; }
+const HistoryOrigin& FemHistory::origin() const { return impl_->origin; }
+const FemFrame& FemHistory::gravity() const { return impl_->gravity; }
+const std::vector<double>& FemHistory::times() const { return impl_->times; }
+
+FemFrame FemHistory::frame(std::size_t index) const {
+  validate(index < impl_->times.size(), "'{}' has no frame {} (it has {})",
+           impl_->in.path().string(), index, impl_->times.size());
+  FemFrame frame;
+  frame.time = impl_->times[index];
+  visit_arrays(
+      frame, [this, index](const char* name, const FieldLabel& label, auto& array, bool nodal) {
+        using T = typename std::decay_t<decltype(array)>::value_type;
+        array = impl_->in.read_row<T>(std::string("frames/") + name, index,
+                                      nodal ? impl_->mesh.num_nodes() : impl_->mesh.num_elements(),
+                                      label.nan);
+      });
+  return frame;
+}
+
+}  // namespace flowslide
