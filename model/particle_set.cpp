@@ -2,6 +2,7 @@
 
 #include "core/check.hpp"
 #include "model/field_store.hpp"
+#include "model/particle_io.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -95,9 +96,7 @@ void check(const ParticleSet& p) {
   }
 }
 
-void write_particles(const std::filesystem::path& path, const ParticleSet& p) {
-  check(p);
-  FieldWriter out(path, kKind, kFormat);
+void write_particles(FieldWriter& out, const ParticleSet& p) {
   out.write("dim", std::vector<std::int32_t>{p.dim}, {.unit = ""});
   visit_fields(p, [&out](std::string_view name, std::string_view unit, const auto& array) {
     out.write("particles/" + std::string(name), array,
@@ -129,11 +128,9 @@ void write_particles(const std::filesystem::path& path, const ParticleSet& p) {
   out.write_texts("materials/parameter_name", keys);
   out.write("materials/parameter_value", values, {.unit = "", .convention = "SI"});
   out.write_texts("notes", p.notes);
-  out.finish();
 }
 
-ParticleSet read_particles(const std::filesystem::path& path) {
-  const FieldReader in(path, kKind, kFormat);
+ParticleSet read_particles(const FieldReader& in) {
   ParticleSet p;
   p.dim = in.read_one<std::int32_t>("dim");
   const std::size_t n = in.rows("particles/position");
@@ -156,16 +153,27 @@ ParticleSet read_particles(const std::filesystem::path& path) {
   const auto values = in.read<double>("materials/parameter_value", owners.size());
   for (std::size_t i = 0; i < owners.size(); ++i) {
     validate(owners[i] >= 0 && static_cast<std::size_t>(owners[i]) < names.size(),
-             "'{}': parameter '{}' belongs to material {} (there are {})", path.string(), keys[i],
-             owners[i], names.size());
+             "'{}': parameter '{}' belongs to material {} (there are {})", in.path().string(),
+             keys[i], owners[i], names.size());
     p.materials[owners[i]].parameters[keys[i]] = values[i];
   }
   try {
     check(p);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("'{}': {}", path.string(), error.what()));
+    throw InputError(fmt::format("'{}': {}", in.path().string(), error.what()));
   }
   return p;
+}
+
+void write_particles(const std::filesystem::path& path, const ParticleSet& p) {
+  check(p);
+  FieldWriter out(path, kKind, kFormat);
+  write_particles(out, p);
+  out.finish();
+}
+
+ParticleSet read_particles(const std::filesystem::path& path) {
+  return read_particles(FieldReader(path, kKind, kFormat));
 }
 
 }  // namespace flowslide

@@ -1,0 +1,256 @@
+#include "model/mpm_history.hpp"
+
+#include "core/check.hpp"
+#include "model/append_file.hpp"
+#include "model/field_store.hpp"
+#include "model/particle_io.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace flowslide {
+namespace {
+
+constexpr std::string_view kKind = "mpm_history";
+constexpr int kFormat = 1;
+
+/// The one list of the arrays of a frame: f(name, label, array).
+template <class Frame, class F>
+void visit_arrays(Frame& frame, F&& f) {
+  f("position", FieldLabel{.unit = "m"}, frame.position);
+  f("velocity", FieldLabel{.unit = "m/s"}, frame.velocity);
+  f("stress", FieldLabel{.unit = "Pa", .convention = "total, tension positive, xx yy zz xy yz zx"},
+    frame.stress);
+  f("volume", FieldLabel{.unit = "m3", .convention = "per metre of width in plane strain"},
+    frame.volume);
+  f("plastic_strain",
+    FieldLabel{.unit = "-", .convention = "accumulated eps_q", .nan = Nan::allowed},
+    frame.plastic_strain);
+  f("strength",
+    FieldLabel{
+        .unit = "Pa", .convention = "present undrained strength or cohesion", .nan = Nan::allowed},
+    frame.strength);
+}
+
+struct Column {
+  const char* name;
+  const char* unit;
+  double MpmSample::*value;
+};
+constexpr std::array<Column, 15> kColumns{
+    {{"time", "s", &MpmSample::time},
+     {"runout", "m", &MpmSample::runout},
+     {"front", "m", &MpmSample::front},
+     {"kinetic", "J", &MpmSample::kinetic},
+     {"gravity_work", "J", &MpmSample::gravity_work},
+     {"strain_energy", "J", &MpmSample::strain_energy},
+     {"plastic_work", "J", &MpmSample::plastic_work},
+     {"friction_work", "J", &MpmSample::friction_work},
+     {"damping_work", "J", &MpmSample::damping_work},
+     {"energy_error", "-", &MpmSample::energy_error},
+     {"momentum_error", "-", &MpmSample::momentum_error},
+     {"mass_error", "-", &MpmSample::mass_error},
+     {"max_speed", "m/s", &MpmSample::max_speed},
+     {"dt", "s", &MpmSample::dt},
+     {"active_particles", "-", &MpmSample::active_particles}}};
+static_assert(sizeof(MpmSample) == kColumns.size() * sizeof(double), "a column is missing");
+
+/// Doubles of one frame: time, 3 + 3 + 6 + 1 + 1 + 1 per particle.
+std::size_t frame_bytes(std::size_t particles) { return (1 + 15 * particles) * sizeof(double); }
+
+ParticleSet sorted_by_id(const ParticleSet& p) {
+  std::vector<std::size_t> order(p.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&p](std::size_t a, std::size_t b) { return p.id[a] < p.id[b]; });
+  ParticleSet sorted = p;
+  const auto permute = [&order](auto& array) {
+    auto from = array;
+    for (std::size_t i = 0; i < order.size(); ++i) array[i] = from[order[i]];
+  };
+  visit_fields(sorted, [&permute](auto, auto, auto& array) { permute(array); });
+  for (auto& [name, values] : sorted.history) permute(values);
+  return sorted;
+}
+
+std::filesystem::path partial_folder(std::filesystem::path path) { return path += ".partial"; }
+
+/// Makes the folder anew, with the initial particles in it.
+std::filesystem::path start_folder(const std::filesystem::path& path, const ParticleSet& initial) {
+  const std::filesystem::path folder = partial_folder(path);
+  check(initial);
+  std::error_code error;
+  std::filesystem::remove_all(folder, error);
+  if (!error) std::filesystem::create_directory(folder, error);
+  if (error)
+    throw FileError(
+        fmt::format("the folder '{}' cannot be made ({})", folder.string(), error.message()));
+  write_particles(folder / "initial.h5", sorted_by_id(initial));
+  return folder;
+}
+
+}  // namespace
+
+/// While it is written, a history is a folder of append-only files: after a kill they are cut back
+/// to what a checkpoint knows of. finish() makes the HDF5 file from them in one pass, so that its
+/// bytes do not depend on how often the run was interrupted.
+struct MpmHistoryWriter::Impl {
+  std::filesystem::path path, folder;
+  ParticleSet initial;
+  std::size_t num_frames, num_samples;
+  AppendFile frames, samples;
+
+  Impl(std::filesystem::path target, std::filesystem::path where, std::size_t keep_frames,
+       std::size_t keep_samples)
+      : path(std::move(target)),
+        folder(std::move(where)),
+        initial(read_particles(folder / "initial.h5")),
+        num_frames(keep_frames),
+        num_samples(keep_samples),
+        frames(folder / "frames.bin", frame_bytes(initial.size()), keep_frames),
+        samples(folder / "samples.bin", sizeof(MpmSample), keep_samples) {}
+
+  [[nodiscard]] double frame_time(std::size_t index) const {
+    double time = 0.0;
+    frames.read(index * frame_bytes(initial.size()), &time, sizeof time);
+    return time;
+  }
+
+  [[nodiscard]] MpmFrame frame(std::size_t index) const {
+    MpmFrame frame;
+    frame.time = frame_time(index);
+    std::size_t offset = index * frame_bytes(initial.size()) + sizeof(double);
+    visit_arrays(frame, [this, &offset](auto, auto&&, auto& array) {
+      array.resize(initial.size());
+      const std::size_t bytes = array.size() * sizeof(array[0]);
+      frames.read(offset, array.data(), bytes);
+      offset += bytes;
+    });
+    return frame;
+  }
+};
+
+MpmHistoryWriter::MpmHistoryWriter(const std::filesystem::path& path, const ParticleSet& initial)
+    : impl_(std::make_unique<Impl>(path, start_folder(path, initial), 0, 0)) {}
+
+MpmHistoryWriter::MpmHistoryWriter(const std::filesystem::path& path, std::size_t resume_frames,
+                                   std::size_t resume_samples)
+    : impl_(std::make_unique<Impl>(path, partial_folder(path), resume_frames, resume_samples)) {}
+
+MpmHistoryWriter::~MpmHistoryWriter() = default;
+
+void MpmHistoryWriter::append(const MpmFrame& frame) {
+  const std::size_t n = impl_->initial.size();
+  const double before = impl_->num_frames == 0 ? -1e300 : impl_->frame_time(impl_->num_frames - 1);
+  validate(frame.time > before,
+           "frame {} is at t = {} s (times must increase, the frame before is "
+           "at {} s)",
+           impl_->num_frames, frame.time, before);
+  visit_arrays(
+      frame, [this, n, &frame](const char* name, const FieldLabel& label, const auto& array) {
+        validate(array.size() == n, "frame at t = {} s: {} has {} values (there are {} particles)",
+                 frame.time, name, array.size(), n);
+        const double* values = reinterpret_cast<const double*>(array.data());
+        const std::size_t width = sizeof(array[0]) / sizeof(double);
+        for (std::size_t i = 0; i < n * width; ++i)
+          if (!(std::isfinite(values[i]) || (label.nan == Nan::allowed && std::isnan(values[i]))))
+            throw NumericsError(
+                fmt::format("frame at t = {} s: {} of particle {} is {} (the run has "
+                            "become unstable); take a smaller time step",
+                            frame.time, name, impl_->initial.id[i / width], values[i]));
+      });
+  impl_->frames.append(&frame.time, sizeof frame.time);
+  visit_arrays(frame, [this](auto, auto&&, const auto& array) {
+    impl_->frames.append(array.data(), array.size() * sizeof(array[0]));
+  });
+  ++impl_->num_frames;
+}
+
+void MpmHistoryWriter::append(const MpmSample& sample) {
+  for (const Column& c : kColumns)
+    if (!std::isfinite(sample.*c.value))
+      throw NumericsError(
+          fmt::format("time series at t = {} s: {} is {} (the run has become "
+                      "unstable); take a smaller time step",
+                      sample.time, c.name, sample.*c.value));
+  impl_->samples.append(&sample, sizeof sample);
+  ++impl_->num_samples;
+}
+
+void MpmHistoryWriter::flush() {
+  impl_->frames.sync();
+  impl_->samples.sync();
+}
+
+void MpmHistoryWriter::finish() {
+  const std::filesystem::path joined = impl_->folder / "joined.h5";
+  FieldWriter out(joined, kKind, kFormat);
+  write_particles(out, impl_->initial);
+  std::vector<double> times;
+  for (std::size_t i = 0; i < impl_->num_frames; ++i) {
+    const MpmFrame frame = impl_->frame(i);
+    times.push_back(frame.time);
+    visit_arrays(frame, [&out](const char* name, const FieldLabel& label, const auto& array) {
+      out.append(std::string("frames/") + name, array, label);
+    });
+  }
+  out.write("frames/time", times, {.unit = "s", .convention = "since transfer"});
+  std::vector<MpmSample> samples(impl_->num_samples);
+  impl_->samples.read(0, samples.data(), samples.size() * sizeof(MpmSample));
+  for (const Column& c : kColumns) {
+    std::vector<double> column;
+    for (const MpmSample& s : samples) column.push_back(s.*c.value);
+    out.write(std::string("samples/") + c.name, column, {.unit = c.unit});
+  }
+  out.finish();
+  std::error_code error;
+  std::filesystem::rename(joined, impl_->path, error);
+  if (error)
+    throw FileError(fmt::format("'{}' cannot be renamed to '{}' ({})", joined.string(),
+                                impl_->path.string(), error.message()));
+  std::filesystem::remove_all(impl_->folder, error);
+}
+
+struct MpmHistory::Impl {
+  FieldReader in;
+  ParticleSet initial;
+  std::vector<double> times;
+  std::vector<MpmSample> samples;
+};
+
+MpmHistory::MpmHistory(const std::filesystem::path& path)
+    : impl_(new Impl{
+          .in = FieldReader(path, kKind, kFormat), .initial = {}, .times = {}, .samples = {}}) {
+  const FieldReader& in = impl_->in;
+  impl_->initial = read_particles(in);
+  impl_->times = in.read<double>("frames/time");
+  impl_->samples.resize(in.rows("samples/time"));
+  for (const Column& c : kColumns) {
+    const auto column = in.read<double>(std::string("samples/") + c.name, impl_->samples.size());
+    for (std::size_t i = 0; i < column.size(); ++i) impl_->samples[i].*c.value = column[i];
+  }
+}
+
+MpmHistory::~MpmHistory() = default;
+MpmHistory::MpmHistory(MpmHistory&&) noexcept = default;
+MpmHistory& MpmHistory::operator=(MpmHistory&&) noexcept = default;
+
+const ParticleSet& MpmHistory::initial() const { return impl_->initial; }
+std::size_t MpmHistory::num_frames() const { return impl_->times.size(); }
+const std::vector<MpmSample>& MpmHistory::samples() const { return impl_->samples; }
+
+MpmFrame MpmHistory::frame(std::size_t index) const {
+  validate(index < num_frames(), "'{}' has no frame {} (it has {})", impl_->in.path().string(),
+           index, num_frames());
+  MpmFrame frame;
+  frame.time = impl_->times[index];
+  visit_arrays(frame, [this, index](const char* name, const FieldLabel& label, auto& array) {
+    using T = typename std::decay_t<decltype(array)>::value_type;
+    array = impl_->in.read_row<T>(std::string("frames/") + name, index, impl_->initial.size(),
+                                  label.nan);
+  });
+  return frame;
+}
+
+}  // namespace flowslide

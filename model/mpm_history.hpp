@@ -1,0 +1,81 @@
+#pragma once
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/particle_set.hpp"
+
+/// Frames and time series of a runout. On disk: HDF5, kind "mpm_history", particles in order of id.
+namespace flowslide {
+
+/// State of all particles at one instant, in order of id.
+struct MpmFrame {
+  double time = 0.0;                                ///< [s] since transfer
+  std::vector<std::array<double, 3>> position;      ///< [m]
+  std::vector<std::array<double, 3>> velocity;      ///< [m/s]
+  std::vector<std::array<double, 6>> stress;        ///< total [Pa]
+  std::vector<double> volume;                       ///< [m3]
+  std::vector<double> plastic_strain;               ///< accumulated deviatoric plastic strain eps_q [-]
+  std::vector<double> strength;                     ///< present undrained strength or cohesion [Pa]
+};
+
+/// One row per output of the time series; energies per metre of width in plane strain [J].
+struct MpmSample {
+  double time = 0.0;
+  double runout = 0.0;            ///< [m] past the toe, by the fifth-farthest point
+  double front = 0.0;             ///< x of the fifth-farthest point [m]
+  double kinetic = 0.0;           ///< kinetic energy [J]
+  double gravity_work = 0.0;      ///< work of gravity since the start [J]
+  double strain_energy = 0.0;     ///< change of recoverable energy since the start [J]
+  double plastic_work = 0.0;      ///< dissipated in the material [J]
+  double friction_work = 0.0;     ///< dissipated on the boundary [J]
+  double damping_work = 0.0;      ///< dissipated by artificial damping and by the velocity transfer [J]
+  double energy_error = 0.0;      ///< residual of the balance / work of gravity [-]
+  double momentum_error = 0.0;    ///< residual of the impulse balance / total impulse of gravity [-]
+  double mass_error = 0.0;        ///< relative
+  double max_speed = 0.0;         ///< [m/s]
+  double dt = 0.0;                ///< time step [s]
+  double active_particles = 0.0;  ///< share of particles not asleep [-]
+};
+
+class MpmHistoryWriter {
+ public:
+  /// Starts `path`.partial, or, if `resume_samples`/`resume_frames` are given, reopens it and cuts it
+  /// back to that many rows and frames. finish() renames it to `path`.
+  MpmHistoryWriter(const std::filesystem::path& path, const ParticleSet& initial);
+  MpmHistoryWriter(const std::filesystem::path& path, std::size_t resume_frames,
+                   std::size_t resume_samples);
+  ~MpmHistoryWriter();
+  MpmHistoryWriter(const MpmHistoryWriter&) = delete;
+  MpmHistoryWriter& operator=(const MpmHistoryWriter&) = delete;
+  void append(const MpmFrame& frame);
+  void append(const MpmSample& sample);
+  /// Data reach the disk; called before a checkpoint that refers to them.
+  void flush();
+  void finish();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+class MpmHistory {
+ public:
+  explicit MpmHistory(const std::filesystem::path& path);
+  ~MpmHistory();
+  MpmHistory(MpmHistory&&) noexcept;
+  MpmHistory& operator=(MpmHistory&&) noexcept;
+  /// The particles as they were handed over, in order of id: material, mass, initial state.
+  [[nodiscard]] const ParticleSet& initial() const;
+  [[nodiscard]] std::size_t num_frames() const;
+  [[nodiscard]] MpmFrame frame(std::size_t index) const;
+  [[nodiscard]] const std::vector<MpmSample>& samples() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace flowslide
