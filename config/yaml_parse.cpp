@@ -79,9 +79,11 @@ class TreeBuilder final : public YAML::EventHandler {
   [[nodiscard]] std::string path() const {
     std::string text;
     for (const Level& level : stack_) {
+      // The levels above the last one already hold the value that is being built.
+      const bool last = &level == &stack_.back();
       if (level.node->kind == Kind::list)
-        text = join(text, std::to_string(level.node->items.size()));
-      else if (level.has_key)
+        text = join(text, std::to_string(level.node->items.size() - (last ? 0 : 1)));
+      else if (!last || level.has_key)
         text = join(text, level.key);
     }
     return text;

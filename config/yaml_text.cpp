@@ -1,6 +1,7 @@
 #include "config/yaml_data.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -73,11 +74,14 @@ std::string read_text(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in)
     throw FileError(fmt::format("{}: cannot be opened ({})", path.string(), std::strerror(errno)));
-  std::string bytes(kMaxBytes + 1, '\0');
-  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  std::string bytes;
+  std::array<char, 16384> block{};
+  while (in && bytes.size() <= kMaxBytes) {
+    in.read(block.data(), block.size());
+    bytes.append(block.data(), static_cast<std::size_t>(in.gcount()));
+  }
   if (in.bad())
     throw FileError(fmt::format("{}: cannot be read ({})", path.string(), std::strerror(errno)));
-  bytes.resize(static_cast<std::size_t>(in.gcount()));
   validate(bytes.size() <= kMaxBytes,
            "{}: is larger than {} MiB (a settings file has a few kB) is this a data file?",
            path.string(), kMaxBytes >> 20u);
