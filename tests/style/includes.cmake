@@ -1,0 +1,80 @@
+# cmake -DROOT=<source folder> -P includes.cmake
+# Fails on an include of a module that is not in the LINKS of the folder's add_module(), and on a
+# library that is used outside its place.
+cmake_minimum_required(VERSION 3.25)
+set(modules "")
+file(GLOB lists RELATIVE "${ROOT}" "${ROOT}/*/CMakeLists.txt")
+foreach(list IN LISTS lists)
+  file(READ "${ROOT}/${list}" text)
+  if(text MATCHES "add_module\\([ \n]*([a-z_]+)([^)]*)\\)")
+    set(module "${CMAKE_MATCH_1}")
+    string(REGEX MATCHALL "flowslide::[a-z_]+" links "${CMAKE_MATCH_2}")
+    list(TRANSFORM links REPLACE "flowslide::" "")
+    list(APPEND modules ${module})
+    set(links_${module} ${module} ${links})
+  elseif(text MATCHES "add_executable" AND list MATCHES "^cli/")
+    list(APPEND modules cli)
+    string(REGEX MATCHALL "flowslide::[a-z_]+" links "${text}")
+    list(TRANSFORM links REPLACE "flowslide::" "")
+    set(links_cli cli ${links})
+  endif()
+endforeach()
+
+# Pattern of an include; pattern of the files that may have it; the rule in words.
+set(rules
+    "^yaml-cpp/" "^config/yaml[a-z_]*[.]cpp$" "config/yaml*.cpp"
+    "^(hdf5|H5[A-Za-z]*)[.]h$" "^model/" "model/"
+    "^vtk" "^model/vtk_writer[.]cpp$" "model/vtk_writer.cpp"
+    "^CLI/" "^cli/" "cli/"
+    "^nlohmann/" "[.]cpp$" ".cpp files"
+    "^openssl/" "^core/" "core/"
+    "^omp[.]h$" "^(fem|transfer|mpm)/" "fem/, transfer/ and mpm/")
+
+set(faults 0)
+macro(report why)
+  message("${file}:${line}: '${include}' (${why})")
+  math(EXPR faults "${faults} + 1")
+endmacro()
+
+foreach(module IN LISTS modules)
+  file(GLOB_RECURSE files RELATIVE "${ROOT}" "${ROOT}/${module}/*.hpp" "${ROOT}/${module}/*.cpp")
+  foreach(file IN LISTS files)
+    file(STRINGS "${ROOT}/${file}" text REGEX "^[ \t]*#[ \t]*include")
+    foreach(found IN LISTS text)
+      if(NOT found MATCHES "[<\"]([^>\"]+)[>\"]")
+        continue()
+      endif()
+      set(include "${CMAKE_MATCH_1}")
+      # The line number is only needed for a message, but costs little.
+      file(READ "${ROOT}/${file}" whole)
+      string(FIND "${whole}" "${found}" at)
+      string(SUBSTRING "${whole}" 0 ${at} before)
+      string(REGEX MATCHALL "\n" newlines "${before}")
+      list(LENGTH newlines line)
+      math(EXPR line "${line} + 1")
+
+      string(REGEX REPLACE "/.*" "" top "${include}")
+      if(top STREQUAL "tests")
+        report("tests are seen by nothing")
+      elseif(top IN_LIST modules AND NOT top IN_LIST links_${module})
+        report("module ${top} is not in LINKS of ${module}/CMakeLists.txt")
+      endif()
+      set(rest ${rules})
+      while(rest)
+        list(POP_FRONT rest pattern allowed words)
+        if(include MATCHES "${pattern}" AND NOT file MATCHES "${allowed}")
+          report("allowed only in ${words}")
+        endif()
+      endwhile()
+    endforeach()
+  endforeach()
+endforeach()
+
+list(LENGTH modules count)
+if(count EQUAL 0)
+  message(FATAL_ERROR "no add_module() below '${ROOT}'")
+endif()
+if(faults GREATER 0)
+  message(FATAL_ERROR "${faults} includes break the rules; see the list above")
+endif()
+message("${count} modules include only what they link")
