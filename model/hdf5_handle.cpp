@@ -1,5 +1,6 @@
 #include "model/hdf5_handle.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -7,6 +8,9 @@ namespace flowslide {
 
 void start_hdf5() {
   static const bool started = [] {
+    // Every handle is closed by its owner. After a failed write (disk full) HDF5's own clean-up at
+    // exit would touch what is left of the file and crash.
+    H5dont_atexit();
     H5open();
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     H5PLset_loading_state(0);
@@ -26,6 +30,12 @@ std::string hdf5_error() {
       &text);
   for (char& c : text)
     if (c == '\n' || c == '\r') c = ' ';
+  // Errors of the operating system come with addresses and times, which help no user.
+  constexpr std::string_view kSystem = "error message = '";
+  if (const std::size_t at = text.find(kSystem); at != std::string::npos) {
+    text.erase(0, at + kSystem.size());
+    text.resize(std::min(text.find('\''), text.size()));
+  }
   return text;
 }
 

@@ -2,7 +2,11 @@
 
 #include "tests/model/scratch.hpp"
 
+#include <csignal>
+#include <cstdlib>
 #include <limits>
+#include <sys/resource.h>
+#include <sys/wait.h>
 
 #include <catch2/catch.hpp>
 #include <hdf5.h>
@@ -182,6 +186,36 @@ TEST_CASE("values that must not be unset are refused on writing") {
 TEST_CASE("a place that cannot be written is a file error") {
   const Scratch folder;
   CHECK_THROWS_AS(FieldWriter(folder / "no/such/folder/s.h5", "small", 1), FileError);
+}
+
+TEST_CASE("a full disk is a file error, and the program ends in order") {
+  const Scratch folder;
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{100000, 100000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    int code = 1;
+    try {
+      std::vector<double> values(100000);
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] = 1.0 / (1.0 + double(i));
+      FieldWriter out(folder / "s.h5", "small", 1);
+      out.write("a", values, {.unit = "m"});
+      out.finish();
+    } catch (const FileError& error) {
+      const bool said = std::string(error.what()).find("File too large") != std::string::npos;
+      code = said && !std::filesystem::exists(folder / "s.h5") &&
+                     !std::filesystem::exists(folder / "s.h5.partial")
+                 ? 0
+                 : 2;
+    }
+    std::exit(code);  // runs the exit handlers, HDF5's among them
+  }
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  REQUIRE(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 0);
 }
 
 TEST_CASE("no flipped byte goes unnoticed") {
