@@ -7,20 +7,19 @@
 namespace flowslide {
 namespace {
 
-using Columns = std::array<FieldVisitor::Column, 7>;
 constexpr std::array<FieldVisitor::Column, 2> kPointColumns{
     {{"x", Dim::length}, {"y", Dim::length}}};
 constexpr std::array<FieldVisitor::Column, 2> kDensityColumns{
     {{"tag", Dim::none}, {"density", Dim::density}}};
 constexpr std::array<FieldVisitor::Column, 2> kLayerColumns{
     {{"sigma'_v0 from", Dim::stress}, {"tag", Dim::none}}};
-constexpr Columns kStrengthColumns{{{"tag", Dim::none},
-                                    {"phi peak", Dim::angle},
-                                    {"phi residual", Dim::angle},
-                                    {"c peak", Dim::stress},
-                                    {"c residual", Dim::stress},
-                                    {"strain peak", Dim::none},
-                                    {"strain residual", Dim::none}}};
+constexpr std::array<FieldVisitor::Column, 7> kStrengthColumns{{{"tag", Dim::none},
+                                                                {"phi peak", Dim::angle},
+                                                                {"phi residual", Dim::angle},
+                                                                {"c peak", Dim::stress},
+                                                                {"c residual", Dim::stress},
+                                                                {"strain peak", Dim::none},
+                                                                {"strain residual", Dim::none}}};
 
 constexpr double kDegree = kPi / 180.0;
 
@@ -67,7 +66,7 @@ void Schema<SordoConfig>::describe(FieldVisitor& v, SordoConfig& c) {
             "tag given to embankment under the water table");
   v.tuple("keep_x", c.keep_x, Dim::length, "points outside this range of x are dropped");
   v.tuple("keep_y", c.keep_y, Dim::length, "points outside this range of y are dropped");
-  v.quantity("water_slope", c.water_slope, Dim::none, {.max = 0.99}, "slope of the water table");
+  v.quantity("water_slope", c.water_slope, Dim::none, {}, "slope of the water table");
   v.quantity("water_level", c.water_level, Dim::length, {}, "level of the water table at x = 0");
   v.quantity("r_u", c.r_u, Dim::none, {.above = 0.0}, "tailings with more are liquefied");
   v.choice("liquefied", c.liquefied, kSordoLiquefiedNames,
