@@ -1,0 +1,69 @@
+#include "report/facts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace flowslide {
+namespace {
+
+void warn_about_balances(ReportFacts& f, const ReportConfig& c) {
+  const auto warn = [&](const char* what, double value, double limit) {
+    if (!(std::abs(value) <= limit))
+      f.warnings.push_back(fmt::format(
+          "The {} balance is off by {:.2g} (limit {:.2g}). Do not use the runout before the cause "
+          "is known.",
+          what, value, limit));
+  };
+  warn("mass", f.mass_error, c.mass_warning);
+  warn("energy", f.energy_error, c.energy_warning);
+  warn("momentum", f.momentum_error, c.momentum_warning);
+}
+
+void warn_about_upstream_end(ReportFacts& f, const ParticleSet& p, const FinalState& end) {
+  constexpr double margin = 5.0;  // point spacings
+  double left = std::numeric_limits<double>::infinity();
+  double left_failed = left;
+  double spacing = 0.0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    left = std::min(left, p.position[i][0]);
+    spacing = std::max(spacing, std::sqrt(p.volume[i]));
+    if (end.failed[i]) left_failed = std::min(left_failed, p.position[i][0]);
+  }
+  if (left_failed < left + margin * spacing)
+    f.warnings.push_back(fmt::format(
+        "The failure reaches the upstream end of the model (x = {:.1f} m), which may have limited "
+        "the released volume. Transfer a longer section.",
+        left));
+}
+
+}  // namespace
+
+void add_warnings(ReportFacts& f, const ParticleSet& p, const FinalState& end,
+                  const std::vector<MpmSample>& samples, const ReportConfig& config) {
+  if (!is_set(f.time_at_rest) && !is_set(f.front_at_rest))
+    f.warnings.push_back(fmt::format(
+        "The run was stopped before rest: after {:.4g} s the kinetic energy was still above {:.2g} "
+        "of its peak and the front was still moving. The final runout is larger; raise `end` of "
+        "the flow stage.",
+        f.duration, config.rest_kinetic));
+  warn_about_balances(f, config);
+  const MpmSample& last = samples.back();
+  if (!(std::abs(last.front - f.front) <= config.rest_front))
+    f.warnings.push_back(fmt::format(
+        "The last frame (t = {:.4g} s) puts the front at x = {:.2f} m, the time series (t = {:.4g} "
+        "s) at x = {:.2f} m. This report uses the frame.",
+        end.time, f.front, last.time, last.front));
+  if (f.runout > 0.0 && f.runout - f.runout_mass > 0.1 * f.runout)
+    f.warnings.push_back(fmt::format(
+        "A thin or detached tip leads the flow: the runout is {:.1f} m by the fifth-farthest point "
+        "but {:.1f} m if {:.2g} % of the failed mass is left out.",
+        f.runout, f.runout_mass, 100.0 * config.mass_quantile));
+  if (!is_set(f.toe))
+    f.warnings.emplace_back(
+        "No toe was given and the flow stage measured no runout, so the runout is reported as 0. "
+        "Give `toe`.");
+  warn_about_upstream_end(f, p, end);
+}
+
+}  // namespace flowslide

@@ -1,0 +1,189 @@
+#include "report/markdown.hpp"
+
+#include "report/audit_table.hpp"
+
+#include <algorithm>
+
+namespace flowslide {
+namespace {
+
+using Rows = std::vector<std::pair<std::string, std::string>>;
+
+std::string table(std::string_view left, std::string_view right, const Rows& rows) {
+  std::string out = fmt::format("| {} | {} |\n|---|---|\n", left, right);
+  for (const auto& [name, value] : rows)
+    out += fmt::format("| {} | {} |\n", cell(name), cell(value));
+  return out + "\n";
+}
+
+std::string list(const std::vector<std::string>& items) {
+  std::string out;
+  for (const std::string& item : items) out += fmt::format("- {}\n", cell(item));
+  return out + "\n";
+}
+
+std::string number(double value, int decimals, std::string_view unit) {
+  if (!is_set(value)) return "-";
+  return fmt::format("{:.{}f}{}{}", value, decimals, unit.empty() ? "" : " ", unit);
+}
+
+std::string summary(const ReportFacts& f, const ReportConfig& c) {
+  std::string out;
+  if (f.failed_volume <= 0.0)
+    return fmt::format(
+        "**Nothing failed.** No point of the materials that count moved by more than {:g} m.\n\n",
+        c.moved);
+  if (f.runout > 0.0)
+    out = fmt::format("**The flow passed the toe and ran out {:.1f} m** (front at x = {:.1f} m). ",
+                      f.runout, f.front);
+  else
+    out = fmt::format(
+        "**The section failed but nothing passed the toe: the runout is 0 m** (front at x = {:.1f} "
+        "m). ",
+        f.front);
+  out += fmt::format(
+      "{:.0f} m3 per metre of width ({:.0f} % of the materials that count) moved by "
+      "more than {:g} m; ",
+      f.failed_volume, f.failed_percent, c.moved);
+  out += fmt::format("the deepest of it lay at y = {:.1f} m. ", f.deepest_failed);
+  if (f.runout > 0.0)
+    out += fmt::format("{:.0f} m3 per metre came to lie beyond the toe. ", f.volume_past_toe);
+  out += fmt::format("The fastest point reached {:.1f} m/s, the front {:.1f} m/s. ", f.peak_speed,
+                     f.peak_front_speed);
+  if (is_set(f.front_at_rest))
+    out += fmt::format("The front came to rest {:.1f} s after the transfer.", f.front_at_rest);
+  else if (is_set(f.time_at_rest))
+    out += fmt::format("The flow came to rest {:.1f} s after the transfer.", f.time_at_rest);
+  else
+    out += "**The flow had not come to rest when the run ended.**";
+  return out + "\n\n";
+}
+
+std::string_view verdict(const Movement& m) {
+  constexpr double little = 0.05;
+  constexpr double most = 0.5;
+  if (m.points == 0) return "holds no points";
+  if (m.failed_share < little) return "stayed";
+  return m.failed_share < most ? "failed in part" : "failed";
+}
+
+std::string movements(const std::vector<Movement>& list, std::string_view kind, double moved) {
+  std::string out = fmt::format(
+      "| {} | | moved > {:g} m (share of mass) | mean displacement (m) | largest (m) | volume "
+      "(m3/m) | points |\n|---|---|---:|---:|---:|---:|---:|\n",
+      kind, moved);
+  for (const Movement& m : list)
+    out += fmt::format("| {} | {} | {:.1f} % | {:.2f} | {:.2f} | {:.0f} | {} |\n", cell(m.name),
+                       verdict(m), 100.0 * m.failed_share, m.mean_displacement, m.max_displacement,
+                       m.volume, m.points);
+  return out + "\n";
+}
+
+std::string key_numbers(const ReportFacts& f, const ReportConfig& c) {
+  Rows rows{{"runout (fifth-farthest point past the toe)", number(f.runout, 2, "m")},
+            {fmt::format("runout leaving out {:g} % of the failed mass", 100.0 * c.mass_quantile),
+             number(f.runout_mass, 2, "m")},
+            {"toe, x", number(f.toe, 2, "m")},
+            {"front, x (fifth-farthest point)", number(f.front, 2, "m")},
+            {"farthest point, x", number(f.front_farthest, 2, "m")}};
+  for (const auto& [window, depth] : f.liquefaction_depth)
+    rows.emplace_back("depth of liquefaction, " + window, number(depth, 2, "m"));
+  rows.insert(
+      rows.end(),
+      {{"transfer time from the start of the motion", number(f.transfer_time, 3, "s")},
+       {"computed flow", number(f.duration, 2, "s")},
+       {"front at rest after", number(f.front_at_rest, 2, "s")},
+       {"kinetic energy at rest after", number(f.time_at_rest, 2, "s")},
+       {"largest speed of a point", number(f.peak_speed, 2, "m/s")},
+       {"largest speed of the front", number(f.peak_front_speed, 2, "m/s")},
+       {"failed volume", number(f.failed_volume, 1, "m3/m")},
+       {"failed share of the counted volume", number(f.failed_percent, 1, "%")},
+       {"volume beyond the toe", number(f.volume_past_toe, 1, "m3/m")},
+       {"deepest failed point, undeformed y", number(f.deepest_failed, 2, "m")},
+       {fmt::format("the same leaving out {:g} % of the failed mass", 100.0 * c.mass_quantile),
+        number(f.deepest_failed_mass, 2, "m")},
+       {"mass error", fmt::format("{:.2e}", f.mass_error)},
+       {"energy error (residual / work of gravity)", fmt::format("{:.2e}", f.energy_error)},
+       {"momentum error (residual / impulse of gravity)",
+        fmt::format("{:.2e}", f.momentum_error)}});
+  return table("quantity", "value", rows);
+}
+
+std::string figures(const DrawnFigures& drawn) {
+  if (drawn.figures.empty()) return "None were drawn.\n\n";
+  std::string out;
+  for (const Figure& figure : drawn.figures)
+    out += fmt::format("![{0}](figures/{1}.png)\n\n{0} ([SVG](figures/{1}.svg))\n\n",
+                       figure.caption, figure.name);
+  return out;
+}
+
+std::string liquefaction(const ReportInputs& in) {
+  const LiquefactionZone& zone = in.zone;
+  const auto elements = std::count(zone.liquefied.begin(), zone.liquefied.end(), 1);
+  double area_liquefied = 0.0;
+  const QuadMesh& mesh = in.history.mesh();
+  for (std::size_t e = 0; e < mesh.num_elements(); ++e)
+    if (zone.liquefied[e]) area_liquefied += area(corners(mesh, mesh.nodes, e));
+  std::string out =
+      zone.transfer_frame < 0
+          ? "The state at rest was transferred; there was no shaking to choose from.\n"
+          : fmt::format("The state at t = {:.3f} s was transferred (frame {} of {}).\n",
+                        zone.transfer_time, zone.transfer_frame + 1, in.history.times().size());
+  out += fmt::format("Reason: {}\n\nThe liquefied zone has {} elements, {:.0f} m2.\n\n",
+                     cell(zone.transfer_reason), elements, area_liquefied);
+  Rows rows;
+  for (std::size_t w = 0; w < zone.window_names.size(); ++w)
+    rows.emplace_back(zone.window_names[w], number(zone.window_depth_max[w], 2, "m"));
+  if (!rows.empty()) out += table("window", "largest depth of liquefaction", rows);
+  if (!zone.notes.empty()) out += "Notes on the zone:\n\n" + list(zone.notes);
+  out += fmt::format("Shaking read from: {}. Out-of-plane stress: {}.\n\n",
+                     cell(in.history.origin().program), cell(in.history.origin().sigma_zz_rule));
+  if (!in.history.origin().notes.empty())
+    out += "Notes of the reader:\n\n" + list(in.history.origin().notes);
+  return out;
+}
+
+std::string definitions(const ReportConfig& c) {
+  return fmt::format(
+      "- Plane strain; volumes, masses and energies are per metre of width.\n"
+      "- Runout: x of the fifth-farthest material point of the materials that count (all but the "
+      "foundation) minus x of the toe of the undeformed section, at least 0.\n"
+      "- Displacement: from the undeformed section, shaking and flow together. Failed: moved by "
+      "more than {:g} m.\n"
+      "- Depth of liquefaction: of the deepest node in a window whose pore-pressure ratio r_u "
+      "exceeds the threshold of the zone stage, below its datum; largest value up to the "
+      "transfer.\n"
+      "- At rest: the front stays within {:g} m of its final place for the last {:g} s, or the "
+      "kinetic energy stays below {:g} of its peak.\n"
+      "- Balance errors: at the end of the run; of mass the largest. The energy error contains "
+      "what "
+      "the time integration and the transfer between points and grid lost unaccounted for.\n\n",
+      c.moved, c.rest_front, c.rest_window, c.rest_kinetic);
+}
+
+}  // namespace
+
+std::string report_markdown(const ReportInputs& in, const ReportConfig& c, const ReportFacts& f,
+                            const DrawnFigures& drawn) {
+  std::string out = fmt::format("# {}\n\n", cell(c.title)) + summary(f, c);
+  if (!f.warnings.empty()) out += "## Read this before using the numbers\n\n" + list(f.warnings);
+  out += "## Key numbers\n\n" + key_numbers(f, c);
+  out += "## What failed and what stayed\n\n" + movements(f.materials, "material", c.moved);
+  if (!f.regions.empty()) out += movements(f.regions, "region", c.moved);
+  out += "## Figures\n\n" + figures(drawn);
+  out += "## Liquefied zone and transfer time\n\n" + liquefaction(in);
+  out += "## Audit of the transfer\n\n" + audit_tables(in.audit);
+  out += "## Definitions\n\n" + definitions(c);
+  if (!in.provenance.empty()) out += "## What was run\n\n" + table("item", "value", in.provenance);
+  out +=
+      "## Files\n\n"
+      "`facts.json` holds the key numbers, `runout.csv` and `zone.csv` the time series";
+  if (c.paraview) out += ", `flow.pvd` and `zone.pvd` the fields for ParaView";
+  out +=
+      ". `data/` holds what the figures are drawn from; change `data/plot*.py` and run "
+      "`python3 data/plot.py .` to restyle them.\n";
+  return out;
+}
+
+}  // namespace flowslide

@@ -1,0 +1,120 @@
+#!/usr/bin/env python3
+"""Draws the figures of a flowslide report.
+
+Usage: plot.py REPORT_FOLDER. Reads REPORT_FOLDER/data, runout.csv and zone.csv, and writes
+REPORT_FOLDER/figures/*.svg and *.png. Change the style here and run it again as you like.
+"""
+import pathlib
+import sys
+
+from plot_style import BLUE, GREEN, INK, ORANGE, PURPLE, RED, WIDTH  # first: selects the backend
+
+import matplotlib.pyplot as plt
+import numpy as np
+import plot_section
+
+
+def histories(titles, xlabel):
+    rows = len(titles)
+    figure, axes = plt.subplots(rows, 1, figsize=(WIDTH, 1.5 * rows + 0.35), sharex=True,
+                                constrained_layout=True)
+    for letter, title, ax in zip("abcd", titles, axes):
+        ax.set_title(f"({letter}) {title}")
+        ax.spines[["top", "right"]].set_visible(False)
+        ax.grid(color="0.9", lw=0.5)
+        ax.margins(x=0.01)
+    axes[-1].set_xlabel(xlabel)
+    figure.align_ylabels()
+    return figure, axes
+
+
+def legend(ax, **options):
+    """Beside the panel, where no curve can run through it."""
+    ax.legend(loc="upper left", bbox_to_anchor=(1, 1.03), alignment="left", **options)
+
+
+def zone_history(section, table):
+    if table.size < 2:
+        return None
+    figure, (depth, energy, shape) = histories(
+        ("Depth of liquefaction", "Kinetic energy of the section", "Distortion of the mesh"),
+        "time from the start of the motion (s)")
+    t = table["time_s"]
+    for window, colour in zip(section.info["windows"], (BLUE, ORANGE, GREEN, PURPLE) * 9):
+        depth.plot(t, table[f"depth_max_{window['column']}_m"], color=colour, label=window["name"])
+        depth.plot(t, table[f"depth_{window['column']}_m"], color=colour, lw=0.7, ls=":")
+    depth.set_ylabel("depth (m)")
+    depth.invert_yaxis()
+    legend(depth, title="dotted: present,\nfull: maximum so far", title_fontsize=7.5)
+    energy.plot(t, table["kinetic_energy_relative_J_per_m"] / 1e6, color=BLUE,
+                label="relative to the base")
+    energy.plot(t, table["kinetic_energy_J_per_m"] / 1e6, color=ORANGE, lw=0.8, label="absolute")
+    energy.set_ylabel("energy (MJ/m)")
+    legend(energy)
+    shape.plot(t, table["distortion_gauss"], color=BLUE, label="smallest Gauss-point Jacobian")
+    shape.plot(t, table["distortion_centre"], color=ORANGE, ls="--", label="area ratio")
+    shape.set_ylabel("quality Q (-)")
+    legend(shape)
+    for ax in (depth, energy, shape):
+        ax.axvline(section.info["transfer_time_s"], color=RED, lw=1)
+    depth.text(section.info["transfer_time_s"], 1.02, "transfer", color=RED, ha="center",
+               va="bottom", transform=depth.get_xaxis_transform())
+    return figure
+
+
+def flow_history(table):
+    if table.size < 2:
+        return None
+    figure, (front, speed, energy, error) = histories(
+        ("Runout", "Speed", "Energy", "Residual of the balances"), "time since transfer (s)")
+    t = table["time_s"]
+    front.plot(t, table["runout_m"], color=BLUE)
+    front.set_ylabel("runout (m)")
+    speed.plot(t, table["max_speed_m_s"], color=ORANGE, lw=0.9, label="fastest point")
+    speed.plot(t, table["front_speed_m_s"], color=BLUE, label="front")
+    speed.set_ylabel("speed (m/s)")
+    legend(speed)
+    energy.plot(t, table["gravity_work_J_per_m"] / 1e6, color=INK, lw=1.6, label="work of gravity")
+    for name, label, style in (
+            ("plastic_work", "plastic work", (BLUE, "-")),
+            ("friction_work", "base friction", (ORANGE, "-")),
+            ("damping_work", "damping and transfer", (GREEN, "--")),
+            ("kinetic", "kinetic", (RED, "-")),
+            ("strain_energy", "elastic", (PURPLE, "--"))):
+        energy.plot(t, table[f"{name}_J_per_m"] / 1e6, color=style[0], ls=style[1], label=label)
+    energy.set_ylabel("energy (MJ/m)")
+    legend(energy)
+    error.plot(t, 100 * table["energy_error"], color=BLUE, label="energy")
+    error.plot(t, 100 * table["momentum_error"], color=ORANGE, ls="--", label="momentum")
+    error.set_ylabel("residual (%)")
+    legend(error)
+    return figure
+
+
+def save(figure, path, kind, metadata):
+    """Without a date, so that the same data give the same bytes; complete or absent."""
+    partial = path.with_name(path.name + ".partial")
+    figure.savefig(partial, format=kind, metadata=metadata)
+    partial.rename(path)
+
+
+def main(folder):
+    section = plot_section.Section(folder / "data")
+    read = lambda name: np.atleast_1d(np.genfromtxt(folder / name, delimiter=",", names=True))
+    figures = {
+        "final_displacement": plot_section.final_displacement(section),
+        "final_materials": plot_section.final_materials(section),
+        "final_strength": plot_section.final_strength(section),
+        "section_before": plot_section.section_before(section),
+        "zone_history": zone_history(section, read("zone.csv")),
+        "flow_history": flow_history(read("runout.csv"))}
+    out = folder / "figures"
+    out.mkdir(exist_ok=True)
+    for name, figure in figures.items():
+        if figure is not None:
+            save(figure, out / f"{name}.svg", "svg", {"Date": None})
+            save(figure, out / f"{name}.png", "png", {"Software": None})
+
+
+if __name__ == "__main__":
+    main(pathlib.Path(sys.argv[1]))

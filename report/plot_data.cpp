@@ -1,0 +1,77 @@
+#include "report/plot_data.hpp"
+
+#include "report/npy.hpp"
+#include "report/section_lines.hpp"
+#include "report/tables.hpp"
+#include "report/text_file.hpp"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+namespace flowslide {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The water table is drawn where the head is 0.1 m: a dry region may hold u = 0 exactly.
+constexpr double kWaterLevel = 1.0e3;  // [Pa]
+
+Table final_points(const ParticleSet& p, const MpmFrame& last, const FinalState& end) {
+  Table t{.columns = 8, .values = {}};
+  for (std::size_t i = 0; i < p.size(); ++i)
+    t.add({end.position[i][0], end.position[i][1], end.undeformed[i][0], end.undeformed[i][1],
+           end.displacement[i], static_cast<double>(p.material[i]), end.strength_ratio[i],
+           std::sqrt(last.volume[i])});
+  return t;
+}
+
+Table elements(const QuadMesh& mesh, const LiquefactionZone& zone) {
+  const std::size_t n = mesh.num_elements();
+  validate(zone.r_u_element.size() == n && zone.liquefied.size() == n &&
+               zone.strength.size() == n && zone.sigma_v0.size() == n,
+           "the zone describes {} elements, the history has {} (they belong to different runs) "
+           "give the report the files of one run",
+           zone.liquefied.size(), n);
+  Table t{.columns = 13, .values = {}};
+  for (std::size_t e = 0; e < n; ++e) {
+    for (const Vec2& c : corners(mesh, mesh.nodes, e)) t.add({c[0], c[1]});
+    t.add({zone.r_u_element[e], static_cast<double>(zone.liquefied[e]), zone.strength[e],
+           static_cast<double>(mesh.element_material[e]), zone.sigma_v0[e]});
+  }
+  return t;
+}
+
+}  // namespace
+
+void write_plot_data(const std::filesystem::path& folder, const FemHistory& history,
+                     const LiquefactionZone& zone, const MpmHistory& flow, const FinalState& end,
+                     const ReportFacts& facts, const ReportConfig& config) {
+  const ParticleSet& p = flow.initial();
+  const QuadMesh& mesh = history.mesh();
+  write_npy(folder / "final.npy", final_points(p, flow.frame(flow.num_frames() - 1), end));
+  write_npy(folder / "elements.npy", elements(mesh, zone));
+  write_npy(folder / "outline.npy", outline_segments(mesh));
+  write_npy(folder / "water.npy",
+            pressure_contour(mesh, history.gravity().pore_pressure, kWaterLevel));
+  Json j;
+  j["toe_m"] = facts.toe;
+  j["front_m"] = facts.front;
+  j["runout_m"] = facts.runout;
+  j["moved_m"] = config.moved;
+  j["time_s"] = end.time;
+  j["transfer_time_s"] = zone.transfer_time;
+  j["transfer_frame"] = zone.transfer_frame;
+  j["lower_boundary"] = zone.lower_boundary;
+  j["windows"] = Json::array();
+  for (const std::string& name : zone.history.window_names)
+    j["windows"].push_back({{"name", name}, {"column", column_name(name)}});
+  j["materials"] = Json::array();
+  for (const MaterialSpec& m : p.materials)
+    j["materials"].push_back({{"name", m.name},
+                              {"counts", m.counts_for_runout},
+                              {"liquefied", m.name.starts_with(config.liquefied)}});
+  write_file(folder / "plot.json", j.dump(1) + "\n");
+}
+
+}  // namespace flowslide

@@ -1,0 +1,46 @@
+#include "report/report.hpp"
+
+#include "report/figures.hpp"
+#include "report/markdown.hpp"
+#include "report/paraview.hpp"
+#include "report/plot_data.hpp"
+#include "report/tables.hpp"
+#include "report/text_file.hpp"
+
+#include <system_error>
+
+namespace flowslide {
+namespace {
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw FileError(fmt::format(
+        "{}: cannot be made a folder ({}) choose another place for the report or remove what is "
+        "there",
+        folder.string(), error.message()));
+}
+
+}  // namespace
+
+ReportFacts write_report(const ReportInputs& in, const ReportConfig& config,
+                         const std::filesystem::path& out) {
+  const FinalState end = final_state(in.particles, in.flow, config);
+  ReportFacts facts = compute_facts(in.zone, in.flow, end, config);
+  make_folder(out / "data");
+  write_file(out / "runout.csv", runout_csv(in.flow.samples()));
+  write_file(out / "zone.csv", zone_csv(in.zone.history));
+  write_plot_data(out / "data", in.history, in.zone, in.flow, end, facts, config);
+  DrawnFigures drawn;
+  if (config.figures) {
+    drawn = draw_figures(out, config.python);
+    if (!drawn.problem.empty()) facts.warnings.push_back(drawn.problem);
+  }
+  if (config.paraview) write_paraview(out, in.history, in.zone, in.flow);
+  write_file(out / "facts.json", to_json(facts));
+  write_file(out / "report.md", report_markdown(in, config, facts, drawn));
+  return facts;
+}
+
+}  // namespace flowslide

@@ -1,0 +1,143 @@
+#include "report/facts.hpp"
+
+#include "tests/report/dam_case.hpp"
+#include "tests/support/scratch.hpp"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+using namespace flowslide;
+
+namespace {
+
+struct Case {
+  Scratch scratch;
+  ParticleSet particles = dam_case::particles();
+  ReportConfig config;
+  FinalState end;
+  ReportFacts facts;
+
+  explicit Case(const dam_case::Flow& flow, const ReportConfig& c = {}) : config(c) {
+    dam_case::write_flow(scratch / "mpm.h5", particles, flow);
+    const MpmHistory history(scratch / "mpm.h5");
+    end = final_state(particles, history, config);
+    facts = compute_facts(dam_case::zone(dam_case::mesh(), true), history, end, config);
+  }
+  [[nodiscard]] bool warns_of(const std::string& text) const {
+    for (const std::string& warning : facts.warnings)
+      if (warning.find(text) != std::string::npos) return true;
+    return false;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("Facts of a known flow") {
+  ReportConfig config;
+  config.toe = dam_case::kToe;
+  config.regions["lower dam"].outline = {{0, 0}, {75, 0}, {35.42, 11.9}, {20, 11.9}};
+  const Case c({}, config);
+  double volume = 0.0, counted = 0.0, deepest = 1e9, far = -1e9;
+  std::vector<double> x;
+  for (std::size_t i = 0; i < c.particles.size(); ++i) {
+    if (c.particles.material[i] == 0) continue;
+    const auto& from = c.particles.position[i];
+    const auto to = dam_case::flowed(from, 200.0, 1.0);
+    x.push_back(to[0]);
+    far = std::max(far, to[0]);
+    counted += c.particles.volume[i];
+    if (std::hypot(to[0] - from[0], to[1] - from[1]) <= 1.0) continue;
+    volume += c.particles.volume[i];
+    deepest = std::min(deepest, from[1]);
+  }
+  std::sort(x.rbegin(), x.rend());
+  CHECK(c.facts.front == x[4]);
+  CHECK(c.facts.runout == x[4] - 75.0);
+  CHECK(c.facts.runout > 50.0);
+  CHECK(c.facts.front_farthest == far);
+  CHECK(c.facts.front_mass <= c.facts.front_farthest);
+  CHECK(c.facts.failed_volume == Approx(volume));
+  CHECK(c.facts.failed_percent == Approx(100.0 * volume / counted));
+  CHECK(c.facts.deepest_failed == deepest);
+  CHECK(c.facts.deepest_failed_mass >= deepest);
+  CHECK(c.facts.front_at_rest == 30.0);
+  CHECK(c.facts.time_at_rest == 30.0);
+  CHECK(c.facts.peak_speed == 12.0);
+  CHECK(c.facts.energy_error == 0.01);
+  CHECK(c.facts.warnings.empty());
+  REQUIRE(c.facts.regions.size() == 1);
+  CHECK(c.facts.regions[0].points > 200);
+  CHECK(c.facts.regions[0].max_displacement == 0.0);
+  CHECK(c.facts.regions[0].failed_share == 0.0);
+  REQUIRE(c.facts.materials.size() == 4);
+  CHECK(c.facts.materials[0].failed_share == 0.0);
+  CHECK(c.facts.materials[3].name == "liquefied 1");
+  CHECK(c.facts.materials[3].failed_share > 0.3);
+}
+
+TEST_CASE("Displacement before the transfer counts, strength is relative to the transfer") {
+  Scratch scratch;
+  ParticleSet p = dam_case::particles();
+  for (auto& u : p.displacement) u = {0.3, -0.4, 0.0};
+  dam_case::write_flow(scratch / "mpm.h5", p, {});
+  const FinalState end = final_state(p, MpmHistory(scratch / "mpm.h5"), {});
+  CHECK(end.displacement[0] == Approx(0.5));
+  CHECK(end.undeformed[0][1] == Approx(p.position[0][1] + 0.4));
+  CHECK(std::isnan(end.strength_ratio[0]));
+  const auto liquefied = std::find(p.material.begin(), p.material.end(), 3) - p.material.begin();
+  CHECK(end.strength_ratio[liquefied] == Approx(0.5));
+}
+
+TEST_CASE("The toe of the flow stage is found in its samples") {
+  const Case c({});
+  CHECK(c.facts.toe == Approx(75.0));
+  CHECK(c.facts.runout > 50.0);
+}
+
+TEST_CASE("Warns of a run that was stopped, of balances and of an unknown toe") {
+  CHECK(Case({.front = 200.0, .end = 20.0}).warns_of("stopped before rest"));
+  CHECK_FALSE(Case({}).warns_of("stopped before rest"));
+  ReportConfig strict;
+  strict.energy_warning = 0.005;
+  CHECK(Case({}, strict).warns_of("energy balance"));
+  CHECK_FALSE(Case({}, strict).warns_of("momentum balance"));
+  const Case still({.front = 40.0, .end = 40.0});
+  CHECK(still.facts.runout == 0.0);
+  CHECK(still.facts.failed_volume > 0.0);
+}
+
+TEST_CASE("Warns if the failure reaches the upstream end") {
+  Case c({});
+  CHECK_FALSE(c.warns_of("upstream end"));
+  c.end.failed[std::find(c.particles.material.begin(), c.particles.material.end(), 3) -
+               c.particles.material.begin()] = 1;
+  const MpmHistory history(c.scratch / "mpm.h5");
+  add_warnings(c.facts, history.initial(), c.end, history.samples(), c.config);
+  CHECK(c.warns_of("upstream end"));
+}
+
+TEST_CASE("Refuses particles of another run") {
+  Case c({});
+  c.particles.id[0] = 987654;
+  CHECK_THROWS_AS(final_state(c.particles, MpmHistory(c.scratch / "mpm.h5"), {}), InputError);
+}
+
+TEST_CASE("JSON has units in its keys and null for what is unset") {
+  const auto json = nlohmann::json::parse(to_json(Case({.front = 200.0, .end = 20.0}).facts));
+  CHECK(json["runout_m"].get<double>() > 10.0);
+  CHECK(json["liquefaction_depth_pond_m"] == 18.0);
+  CHECK(json["liquefaction_depth_crest_m"] == 14.0);
+  CHECK(json["transfer_time_s"] == 2.0);
+  CHECK(json["mass_error"] == 0.0);
+  CHECK(json["energy_error"] == 0.01);
+  CHECK(json["time_at_rest_s"].is_null());
+  CHECK(json["materials"].size() == 4);
+}
+
+TEST_CASE("Points inside a concave outline") {
+  const std::vector<std::vector<double>> outline{{0, 0}, {4, 0}, {4, 4}, {2, 1}, {0, 4}};
+  CHECK(inside(outline, 0.5, 1.0));
+  CHECK(inside(outline, 3.5, 1.0));
+  CHECK_FALSE(inside(outline, 2.0, 2.0));
+  CHECK_FALSE(inside(outline, 5.0, 1.0));
+}

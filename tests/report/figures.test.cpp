@@ -1,0 +1,100 @@
+#include "report/figures.hpp"
+
+#include "core/hash.hpp"
+#include "report/plot_data.hpp"
+#include "report/tables.hpp"
+#include "tests/report/dam_case.hpp"
+#include "tests/support/scratch.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace flowslide;
+
+namespace {
+
+/// What the figures are drawn from, in scratch/report.
+void write_case(const Scratch& scratch, bool shaken) {
+  const QuadMesh mesh = dam_case::mesh();
+  const ParticleSet particles = dam_case::particles();
+  dam_case::write_flow(scratch / "mpm.h5", particles, {});
+  dam_case::write_history(scratch / "history.h5", shaken);
+  const MpmHistory flow(scratch / "mpm.h5");
+  const LiquefactionZone zone = dam_case::zone(mesh, shaken);
+  const FinalState end = final_state(particles, flow, {});
+  const std::filesystem::path out = scratch / "report";
+  std::filesystem::create_directories(out / "data");
+  write_plot_data(out / "data", FemHistory(scratch / "history.h5"), zone, flow, end,
+                  compute_facts(zone, flow, end, {}), {});
+  std::ofstream(out / "runout.csv") << runout_csv(flow.samples());
+  std::ofstream(out / "zone.csv") << zone_csv(zone.history);
+}
+
+/// Width and height from the header of a PNG; zeros if it is none.
+std::pair<unsigned, unsigned> png_size(const std::filesystem::path& path) {
+  const std::string bytes = read_text_file(path);
+  if (bytes.size() < 24 || bytes.substr(1, 3) != "PNG") return {0, 0};
+  const auto number = [&](std::size_t at) {
+    unsigned n = 0;
+    for (std::size_t k = 0; k < 4; ++k) n = 256 * n + static_cast<unsigned char>(bytes[at + k]);
+    return n;
+  };
+  return {number(16), number(20)};
+}
+
+}  // namespace
+
+TEST_CASE("Figures are drawn at page width, small, and with the same bytes every time") {
+  const Scratch scratch;
+  write_case(scratch, true);
+  const std::filesystem::path figures = scratch / "report/figures";
+  std::vector<std::string> first;
+  for (int round = 0; round < 2; ++round) {
+    const DrawnFigures drawn = draw_figures(scratch / "report", std::nullopt);
+    INFO(drawn.problem);
+    REQUIRE(drawn.problem.empty());
+    REQUIRE(drawn.figures.size() == kFigures.size());
+    for (std::size_t k = 0; k < kFigures.size(); ++k) {
+      const std::string name(kFigures[k].name);
+      CAPTURE(name);
+      const auto [width, height] = png_size(figures / (name + ".png"));
+      CHECK(width == 1584);
+      CHECK(height > 300);
+      CHECK(height < 2000);
+      const std::filesystem::path svg = figures / (name + ".svg");
+      CHECK(std::filesystem::file_size(svg) > 20'000);
+      CHECK(std::filesystem::file_size(svg) < 500'000);
+      if (round == 0) first.push_back(sha256_file(svg));
+      CHECK(first[k] == sha256_file(svg));
+    }
+  }
+}
+
+TEST_CASE("A static run has no history of the zone to draw") {
+  const Scratch scratch;
+  write_case(scratch, false);
+  const DrawnFigures drawn = draw_figures(scratch / "report", std::nullopt);
+  INFO(drawn.problem);
+  REQUIRE(drawn.figures.size() == kFigures.size() - 1);
+  for (const Figure& figure : drawn.figures) CHECK(figure.name != "zone_history");
+}
+
+TEST_CASE("Without Matplotlib the message names the package and old figures go") {
+  const Scratch scratch;
+  scratch.write("report/figures/flow_history.png", "old");
+  std::filesystem::create_directories(scratch / "report/data");
+  for (const char* python : {"/bin/false", "/nowhere/python3"}) {
+    const DrawnFigures drawn = draw_figures(scratch / "report", python);
+    CHECK(drawn.figures.empty());
+    CHECK(drawn.problem.find("python3-matplotlib") != std::string::npos);
+    CHECK(drawn.problem.find(python) != std::string::npos);
+  }
+  CHECK_FALSE(std::filesystem::exists(scratch / "report/figures/flow_history.png"));
+}
+
+TEST_CASE("A script that fails is reported with its last words") {
+  const Scratch scratch;
+  std::filesystem::create_directories(scratch / "report/data");
+  const DrawnFigures drawn = draw_figures(scratch / "report", std::nullopt);
+  CHECK(drawn.figures.empty());
+  CHECK(drawn.problem.find("plot.json") != std::string::npos);
+}
