@@ -1,0 +1,131 @@
+#include "importers/plausibility.hpp"
+
+#include "core/check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flowslide {
+namespace {
+
+constexpr double kLightest = 10e3;    // [N/m3] below every saturated soil
+constexpr double kHeaviest = 30e3;    // [N/m3] above every soil
+constexpr double kNoPressure = 0.01;  // of the largest vertical stress
+constexpr double kJump = 0.3;         // allowed change from gravity to the first row
+constexpr std::size_t kSamples = 200;
+
+double median(std::vector<double> values) {
+  if (values.empty()) return kUnset;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Highest point of the mesh above x.
+double surface_height(const QuadMesh& mesh, double x) {
+  double top = -std::numeric_limits<double>::infinity();
+  for (const auto& nodes : mesh.elements) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Vec2& a = mesh.nodes[static_cast<std::size_t>(nodes[i])];
+      const Vec2& b = mesh.nodes[static_cast<std::size_t>(nodes[(i + 1) % 4])];
+      if (x < std::min(a[0], b[0]) || x > std::max(a[0], b[0])) continue;
+      const double s = b[0] == a[0] ? 1.0 : (x - a[0]) / (b[0] - a[0]);
+      top = std::max({top, a[1] + s * (b[1] - a[1]), b[0] == a[0] ? a[1] : top});
+    }
+  }
+  return top;
+}
+
+double mean_pressure(const QuadMesh& mesh, const FemFrame& frame, std::size_t e) {
+  double sum = 0.0;
+  for (const std::int32_t n : mesh.elements[e])
+    sum += frame.pore_pressure[static_cast<std::size_t>(n)];
+  return 0.25 * sum;
+}
+
+// Median unit weight over sampled elements in the lower two thirds of the section [N/m3].
+double apparent_unit_weight(const QuadMesh& mesh, const FemFrame& gravity) {
+  struct Sample {
+    double depth;
+    double weight;
+  };
+  std::vector<Sample> samples;
+  double deepest = 0.0;
+  const std::size_t stride = std::max<std::size_t>(1, mesh.num_elements() / kSamples);
+  for (std::size_t e = 0; e < mesh.num_elements(); e += stride) {
+    const Vec2 c = centroid(corners(mesh, mesh.nodes, e));
+    const double depth = surface_height(mesh, c[0]) - c[1];
+    const double total = mean_pressure(mesh, gravity, e) - gravity.stress[e][1];
+    samples.push_back({depth, total / depth});
+    deepest = std::max(deepest, depth);
+  }
+  std::vector<double> weights;
+  for (const Sample& s : samples)
+    if (s.depth > deepest / 3.0) weights.push_back(s.weight);
+  return median(std::move(weights));
+}
+
+}  // namespace
+
+std::vector<std::string> gravity_warnings(const QuadMesh& mesh, const FemFrame& gravity) {
+  std::vector<std::string> warnings;
+  std::size_t tension = 0;
+  double largest_stress = 0.0;
+  for (const Stress<2>& s : gravity.stress) {
+    tension += s[1] > 0.0;
+    largest_stress = std::max(largest_stress, std::abs(s[1]));
+  }
+  if (2 * tension > gravity.stress.size()) {
+    warnings.push_back(
+        fmt::format("gravity: the vertical effective stress is positive in {} of {} elements "
+                    "(OpenSees: tension positive) was the sign changed, or is the column order of "
+                    "`columns.stress` another?",
+                    tension, gravity.stress.size()));
+  }
+  const double weight = apparent_unit_weight(mesh, gravity);
+  if (2 * tension <= gravity.stress.size() && !(weight >= kLightest && weight <= kHeaviest)) {
+    warnings.push_back(
+        fmt::format("gravity: total vertical stress grows by {:.3g} kN/m3 with depth (soil: 10 to "
+                    "30) are `units.stress` and `units.length`, the order of the recorders and the "
+                    "gravity row right?",
+                    weight / 1e3));
+  }
+  double largest_pressure = 0.0;
+  for (const double u : gravity.pore_pressure)
+    largest_pressure = std::max(largest_pressure, std::abs(u));
+  if (largest_pressure < kNoPressure * largest_stress) {
+    warnings.push_back(
+        "gravity: pore pressure is nowhere 1 % of the vertical stress (a dry model?) pore pressure "
+        "is the velocity of the last degree of freedom: `-dof 3 vel`, not disp or accel");
+  }
+  return warnings;
+}
+
+std::vector<std::string> start_warnings(const FemFrame& gravity, const FemFrame& first) {
+  std::vector<std::string> warnings;
+  const auto compare = [&](std::string_view what, auto value, std::size_t count,
+                           std::string_view hint) {
+    double change = 0.0;
+    double size = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+      change += std::abs(value(first, i) - value(gravity, i));
+      size += std::abs(value(gravity, i));
+    }
+    const double share = change / size;
+    if (size > 0.0 && share > kJump)
+      warnings.push_back(fmt::format(
+          "first shaking row (t = {} s): {} differs from gravity by {:.0f} % on average "
+          "{}",
+          first.time, what, 100.0 * share, hint));
+  };
+  compare(
+      "pore pressure", [](const FemFrame& f, std::size_t i) { return f.pore_pressure[i]; },
+      first.pore_pressure.size(),
+      "(recorded as disp or accel? it is `-dof 3 vel`; or the gravity row is of another stage)");
+  compare(
+      "vertical effective stress", [](const FemFrame& f, std::size_t i) { return f.stress[i][1]; },
+      first.stress.size(), "(is the gravity row of another stage or model?)");
+  return warnings;
+}
+
+}  // namespace flowslide
