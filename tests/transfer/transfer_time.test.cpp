@@ -1,0 +1,167 @@
+#include "transfer/transfer_time.hpp"
+
+#include "core/check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+using namespace flowslide;
+
+namespace {
+
+/// A record of 30 s in steps of 0.1 s: the base shakes from 0 to 12 s with its peak at 10 s, the
+/// section moves 0.5 times as strongly in energy; liquefaction starts at 8 s and has reached 16 m
+/// at 10 s. From `failure` on, the energy grows by 20 J/m per second. Q falls from 1 by 0.01 per
+/// second from 12 s on: below 0.97 after 15 s.
+struct Record {
+  ZoneHistory h;
+  std::vector<double> base;
+  explicit Record(double failure, double q_start = 12.0) {
+    h.window_names = {"crest", "pond"};
+    h.depth.resize(2);
+    h.depth_max.resize(2);
+    for (int i = 0; i <= 300; ++i) {
+      const double t = 0.1 * i;
+      h.time.push_back(t);
+      const double shaking = t < 12.0 ? 10.0 * std::exp(-0.5 * (t - 10.0) * (t - 10.0)) : 0.0;
+      base.push_back(shaking);
+      const double slide = t > failure ? 20.0 * (t - failure) : 0.0;
+      h.kinetic_energy_relative.push_back(0.5 * shaking + slide);
+      h.kinetic_energy.push_back(1.5 * shaking + slide);
+      const double depth = t < 8.0 ? 0.0 : std::min(16.0, 8.0 * (t - 8.0));
+      for (std::size_t w = 0; w < 2; ++w) {
+        h.depth[w].push_back(depth);
+        h.depth_max[w].push_back(depth);
+      }
+      const double q = std::min(1.0, 1.0 - 0.01 * (t - q_start));
+      h.distortion_gauss.push_back(q);
+      h.distortion_centre.push_back(1.0);
+    }
+  }
+  [[nodiscard]] TransferChoice choose(const TransferTimeConfig& config = {}) const {
+    return choose_transfer(config, h, base);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("trailing means reach back by their length and never forward", "[transfer]") {
+  const std::vector<double> time{0.0, 1.0, 2.0, 4.0};
+  const std::vector<double> value{1.0, 3.0, 5.0, 100.0};
+  CHECK(trailing_mean(time, value, 2.0) == std::vector<double>{1.0, 2.0, 4.0, 100.0});
+  CHECK(trailing_mean(time, value, 0.0) == value);
+}
+
+TEST_CASE("shaking alone is no failure, however strong it becomes after first liquefaction",
+          "[transfer]") {
+  const Record record(1e9, 1e9);
+  CHECK_FALSE(find_onset({}, record.h, record.base));
+  const TransferChoice choice = record.choose();
+  CHECK(choice.frame == 300);
+  CHECK(choice.time == Approx(30.0));
+  CHECK_THAT(choice.reason,
+             Catch::Contains("never leaves") && Catch::Contains("end of the record"));
+}
+
+TEST_CASE("the onset lies soon after the slide begins", "[transfer]") {
+  for (const EnergyFrame energy : {EnergyFrame::relative, EnergyFrame::absolute}) {
+    const Record record(11.0);
+    const auto onset = find_onset({.energy = energy}, record.h, record.base);
+    REQUIRE(onset);
+    // The envelope is at most 15 J/m, the slide has 20 J/m/s: twice the envelope is passed within
+    // 2 s, the trailing mean of 1 s included.
+    CHECK(record.h.time[onset->sample] > 11.0);
+    CHECK(record.h.time[onset->sample] <= 13.0);
+    CHECK(onset->energy > 2.0 * onset->envelope);
+  }
+}
+
+TEST_CASE("a short burst is not sustained growth", "[transfer]") {
+  Record record(1e9, 1e9);
+  for (std::size_t i = 150; i < 153; ++i) record.h.kinetic_energy_relative[i] = 200.0;
+  CHECK_FALSE(find_onset({}, record.h, record.base));
+}
+
+TEST_CASE("without liquefaction there is no failure", "[transfer]") {
+  Record record(11.0);
+  for (auto& depth : record.h.depth) std::ranges::fill(depth, 0.0);
+  CHECK_FALSE(find_onset({}, record.h, record.base));
+}
+
+TEST_CASE("the transfer lies halfway from full development to excessive distortion", "[transfer]") {
+  const Record record(11.0);
+  const double onset = record.h.time[find_onset({}, record.h, record.base)->sample];
+  const TransferChoice choice = record.choose();
+  // Q < 0.97 from 15.1 s on (15.0 s holds 0.97 up to rounding).
+  CHECK(choice.time == Approx(0.5 * (onset + 15.05)).margin(0.11));
+  CHECK(choice.frame == std::lround(10.0 * choice.time));
+  CHECK_THAT(choice.reason, Catch::Contains("leaves its pre-failure envelope") &&
+                                Catch::Contains("falls below 0.97") &&
+                                Catch::Contains("0.5 of the way"));
+
+  TransferTimeConfig late;
+  late.automatic.between = 1.0;
+  CHECK(record.choose(late).time < 15.15);
+  CHECK(record.h.distortion_gauss[static_cast<std::size_t>(record.choose(late).frame)] >= 0.97);
+}
+
+TEST_CASE("full development is the slowest window at 90 % of its largest depth", "[transfer]") {
+  Record record(11.0);
+  for (std::size_t i = 0; i <= 300; ++i) {
+    const double t = record.h.time[i];
+    record.h.depth_max[1][i] = t < 8.0 ? 0.0 : std::min(20.0, 16.0 + 2.0 * std::max(0.0, t - 12.0));
+  }
+  // 18 m of 20 m at 13 s, later than the onset; 0.5 of the way to 15 s.
+  CHECK(record.choose().time == Approx(14.05).margin(0.11));
+  CHECK_THAT(record.choose().reason, Catch::Contains("fully developed at 13 s (pond 18 m)"));
+}
+
+TEST_CASE("a record that ends before the distortion is used to its end", "[transfer]") {
+  const Record record(11.0, 1e9);
+  CHECK(record.choose().frame == 300);
+  CHECK_THAT(record.choose().reason, Catch::Contains("record ends before Q"));
+  TransferTimeConfig centre;
+  centre.automatic.jacobian = JacobianPoint::centre;
+  CHECK(Record(11.0).choose(centre).frame == 300);
+}
+
+TEST_CASE("distortion without a rise of the energy ends the usable record", "[transfer]") {
+  const Record record(1e9);
+  CHECK(record.choose().time == Approx(15.0).margin(0.11));
+  CHECK_THAT(record.choose().reason, Catch::Contains("last frame before the distortion"));
+  CHECK_THROWS_WITH(Record(1e9, -100.0).choose(), Catch::Contains("in the first frame already"));
+}
+
+TEST_CASE("times given by the user", "[transfer]") {
+  const Record record(11.0);
+  TransferTimeConfig config{.when = TransferWhen::at, .at = 7.02};
+  CHECK(record.choose(config).frame == 70);
+  CHECK(record.choose(config).time == Approx(7.0));
+  config.at = 30.01;
+  CHECK_THROWS_WITH(record.choose(config),
+                    Catch::Contains("outside the record") && Catch::Contains("from 0 s to 30"));
+  config.at = kUnset;
+  CHECK_THROWS_AS(record.choose(config), InputError);
+  CHECK(record.choose({.when = TransferWhen::end, .at = {}}).frame == 300);
+  CHECK(record.choose({.when = TransferWhen::gravity, .at = {}}).frame == -1);
+  CHECK(record.choose({.when = TransferWhen::gravity, .at = {}}).time == 0.0);
+}
+
+TEST_CASE("a history without frames can only be transferred at gravity", "[transfer]") {
+  const ZoneHistory empty;
+  CHECK(choose_transfer({.when = TransferWhen::gravity, .at = {}}, empty, {}).frame == -1);
+  for (const TransferWhen when : {TransferWhen::automatic, TransferWhen::end, TransferWhen::at}) {
+    CHECK_THROWS_WITH(choose_transfer({.when = when, .at = 1.0}, empty, {}),
+                      Catch::Contains("gravity state only"));
+  }
+}
+
+TEST_CASE("when and at must agree", "[transfer]") {
+  CHECK_THROWS_WITH(check(TransferTimeConfig{.when = TransferWhen::at, .at = {}}),
+                    Catch::Contains("add e.g. at: 7.01 s"));
+  CHECK_THROWS_WITH(check(TransferTimeConfig{.when = TransferWhen::end, .at = 7.0}),
+                    Catch::Contains("when: end"));
+  CHECK_NOTHROW(check(TransferTimeConfig{}));
+}

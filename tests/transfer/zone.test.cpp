@@ -1,0 +1,244 @@
+#include "transfer/zone.hpp"
+
+#include "core/check.hpp"
+#include "tests/transfer/zone_grid.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+
+using namespace flowslide;
+
+namespace {
+
+constexpr double kBuoyant = 10e3;  // gamma' [Pa/m]
+constexpr double kWater = 9.81e3;  // gamma_w [Pa/m]
+
+/// Column of 10 x 10 elements of 1 m, surface at y = 10, hydrostatic; lower two rows of elements
+/// are material 2, the rest 1. Frame k has r_u = 0.8 at y >= levels[k] and 0.3 below.
+class Column {
+ public:
+  explicit Column(const std::vector<double>& levels)
+      : path_(std::filesystem::temp_directory_path() /
+              fmt::format("flowslide-zone-{}-{}.h5", getpid(), next_++)) {
+    for (std::size_t e = 0; e < 20; ++e) mesh.element_material[e] = 2;
+    FemHistoryWriter writer(path_, mesh, {});
+    FemFrame gravity = rest();
+    writer.set_gravity(gravity);
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+      FemFrame frame = rest();
+      frame.time = 0.5 * static_cast<double>(k + 1);
+      for (std::size_t n = 0; n < mesh.num_nodes(); ++n) {
+        const double depth = 10.0 - mesh.nodes[n][1];
+        frame.pore_pressure[n] += (mesh.nodes[n][1] >= levels[k] ? 0.8 : 0.3) * kBuoyant * depth;
+        frame.velocity[n] = {2.0, 0.0};
+      }
+      writer.append(frame);
+    }
+    writer.finish();
+  }
+  ~Column() { std::filesystem::remove(path_); }
+  Column(const Column&) = delete;
+  Column& operator=(const Column&) = delete;
+
+  [[nodiscard]] LiquefactionZone find(const ZoneConfig& config) const {
+    return find_zone(FemHistory(path_), config);
+  }
+
+  QuadMesh mesh = rectangle_mesh(10, 10, 1.0, 1.0, 1);
+
+ private:
+  [[nodiscard]] FemFrame rest() const {
+    FemFrame f;
+    f.displacement.resize(mesh.num_nodes());
+    f.velocity.resize(mesh.num_nodes());
+    for (const Vec2& x : mesh.nodes) f.pore_pressure.push_back(kWater * (10.0 - x[1]));
+    f.stress.resize(mesh.num_elements());
+    f.strain.resize(mesh.num_elements());
+    for (std::size_t e = 0; e < mesh.num_elements(); ++e) {
+      f.stress[e][1] = -kBuoyant * (10.0 - centroid(corners(mesh, mesh.nodes, e))[1]);
+    }
+    return f;
+  }
+
+  static inline int next_ = 0;
+  std::filesystem::path path_;
+};
+
+ZoneConfig column_config() {
+  ZoneConfig c;
+  c.liquefiable = {1};
+  c.pond_surface = 10.0;
+  c.windows = {{"left", {0.0, 4.0}}, {"right", {6.0, 10.0}}};
+  c.densities = {{1, 2000.0}, {2, 1500.0}};
+  c.strength.table = {{0.0, 1e3}, {100e3, 11e3}};
+  c.strength.bin_width = 20e3;
+  c.strength.last_bin = 60e3;
+  c.transfer.when = TransferWhen::end;
+  return c;
+}
+
+}  // namespace
+
+TEST_CASE("an imposed r_u gives its exact depth, zone and strength", "[transfer]") {
+  const Column column({7.0, 4.0, 6.0});
+  const LiquefactionZone zone = column.find(column_config());
+  const ZoneHistory& h = zone.history;
+  CHECK(h.time == std::vector<double>{0.5, 1.0, 1.5});
+  for (std::size_t w = 0; w < 2; ++w) {
+    CHECK(h.depth[w] == std::vector<double>{3.0, 6.0, 4.0});
+    CHECK(h.depth_max[w] == std::vector<double>{3.0, 6.0, 6.0});
+    CHECK(zone.window_depth_max[w] == 6.0);
+  }
+  CHECK(zone.window_names == std::vector<std::string>{"left", "right"});
+  CHECK(zone.transfer_frame == 2);
+  CHECK(zone.transfer_time == 1.5);
+
+  for (std::size_t e = 0; e < column.mesh.num_elements(); ++e) {
+    const double y = centroid(corners(column.mesh, column.mesh.nodes, e))[1];
+    const double sigma = kBuoyant * (10.0 - y);
+    CHECK(zone.sigma_v0[e] == Approx(sigma));
+    CHECK(zone.liquefied[e] == (y > 4.0));
+    if (y > 4.0) {
+      CHECK(zone.strength[e] == Approx(1e3 + 0.1 * sigma));
+      CHECK(zone.layer[e] == static_cast<int>(sigma / 20e3));
+    } else {
+      CHECK_FALSE(is_set(zone.strength[e]));
+      CHECK(zone.layer[e] == -1);
+    }
+  }
+  // The surface nodes have half an element's stress, 5 kPa, below the floor of 8 kPa.
+  CHECK_FALSE(is_set(zone.r_u_node[120]));
+  CHECK(zone.r_u_node[5 * 11] == Approx(0.8));
+  CHECK(zone.notes.front().substr(0, 8) == "11 nodes");
+  for (const Vec2& p : zone.lower_boundary) CHECK(p[1] == 4.0);
+}
+
+TEST_CASE("the zone of the moment can be asked for", "[transfer]") {
+  ZoneConfig config = column_config();
+  config.r_u.over_time = RuOverTime::instantaneous;
+  const LiquefactionZone zone = Column({7.0, 4.0, 6.0}).find(config);
+  for (const Vec2& p : zone.lower_boundary) CHECK(p[1] == 6.0);
+  CHECK(std::ranges::count(zone.liquefied, 1) == 40);
+}
+
+TEST_CASE("only frames up to the transfer count", "[transfer]") {
+  ZoneConfig config = column_config();
+  config.transfer = {.when = TransferWhen::at, .at = 0.7};
+  const LiquefactionZone zone = Column({7.0, 4.0, 6.0}).find(config);
+  CHECK(zone.transfer_frame == 0);
+  CHECK(zone.window_depth_max[0] == 3.0);
+  CHECK(std::ranges::count(zone.liquefied, 1) == 30);
+  CHECK(zone.history.time.size() == 3);
+}
+
+TEST_CASE("energy and distortion of a rigid translation", "[transfer]") {
+  const LiquefactionZone zone = Column({7.0}).find(column_config());
+  CHECK(zone.history.kinetic_energy[0] == Approx(0.5 * (80.0 * 2000.0 + 20.0 * 1500.0) * 4.0));
+  CHECK(zone.history.kinetic_energy_relative[0] == Approx(0.0).margin(1e-9));
+  CHECK(zone.history.distortion_gauss[0] == 1.0);
+  CHECK(zone.history.distortion_centre[0] == 1.0);
+}
+
+TEST_CASE("the box leaves columns out of zone and energy", "[transfer]") {
+  ZoneConfig config = column_config();
+  config.box.left = 2.0;
+  config.box.bottom = 2.0;
+  config.densities = {{1, 2000.0}};
+  const LiquefactionZone zone = Column({4.0}).find(config);
+  CHECK(zone.history.kinetic_energy[0] == Approx(0.5 * 64.0 * 2000.0 * 4.0));
+  CHECK(std::ranges::count(zone.liquefied, 1) == 6 * 8);
+  CHECK(zone.liquefied[99] == 1);
+  CHECK(zone.liquefied[90] == 0);
+}
+
+TEST_CASE("a gravity state is transferred with a zone given by the user", "[transfer]") {
+  ZoneConfig config = column_config();
+  config.transfer.when = TransferWhen::gravity;
+  config.zone = ZoneExtent::all;
+  config.densities.clear();
+  const Column column({});
+  const LiquefactionZone all = column.find(config);
+  CHECK(all.transfer_frame == -1);
+  CHECK(all.transfer_time == 0.0);
+  CHECK(all.history.time.empty());
+  CHECK(all.history.kinetic_energy.empty());
+  CHECK(std::ranges::count(all.liquefied, 1) == 80);
+  CHECK(all.window_depth_max == std::vector<double>{8.0, 8.0});
+  CHECK(all.r_u_node[60] == 0.0);
+
+  config.zone = ZoneExtent::line;
+  config.line = {{0.0, 4.99}, {10.0, 2.99}};
+  const LiquefactionZone line = column.find(config);
+  CHECK(line.window_depth_max == std::vector<double>{5.0, 7.0});
+  CHECK(line.lower_boundary == std::vector<Vec2>{{0.0, 4.99}, {10.0, 2.99}});
+  // The row at 4.5 is above the line from x = 2.5 on, the row at 3.5 from x = 7.5 on.
+  CHECK(std::ranges::count(line.liquefied, 1) == 50 + 8 + 3);
+
+  config.zone = ZoneExtent::polygon;
+  config.line.clear();
+  config.polygon = {{0.0, 6.0}, {5.0, 6.0}, {5.0, 10.0}, {0.0, 10.0}};
+  const LiquefactionZone polygon = column.find(config);
+  CHECK(std::ranges::count(polygon.liquefied, 1) == 20);
+  CHECK(polygon.window_depth_max == std::vector<double>{4.0, 0.0});
+}
+
+TEST_CASE("stress outside the strength table is noted", "[transfer]") {
+  ZoneConfig config = column_config();
+  config.strength.table = {{20e3, 1e3}, {40e3, 2e3}};
+  const LiquefactionZone zone = Column({4.0}).find(config);
+  // 5 and 15 kPa below, 45 and 55 kPa above.
+  REQUIRE(zone.notes.size() == 2);
+  CHECK_THAT(zone.notes[1], Catch::StartsWith("40 of 60") && Catch::Contains("20 to 40 kPa"));
+}
+
+TEST_CASE("nothing liquefied is a zone of nothing, and says so", "[transfer]") {
+  const LiquefactionZone zone = Column({11.0}).find(column_config());
+  CHECK(std::ranges::count(zone.liquefied, 1) == 0);
+  CHECK(zone.window_depth_max[0] == 0.0);
+  CHECK_THAT(zone.notes.back(), Catch::Contains("no element has liquefied"));
+}
+
+TEST_CASE("settings that do not fit the mesh or each other are refused", "[transfer]") {
+  const Column column({4.0});
+  const ZoneConfig good = column_config();
+  const auto with = [&column, &good](auto change) {
+    ZoneConfig c = good;
+    change(c);
+    return column.find(c);
+  };
+  CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.liquefiable = {3}; }),
+                    Catch::Contains("no element has material 3"));
+  CHECK_THROWS_WITH(with([](ZoneConfig& c) {
+                      c.windows = {{"pond", {-70.0, -50.0}}};
+                    }),
+                    Catch::Contains("windows.pond") && Catch::Contains("-70 m to -50 m"));
+  CHECK_THROWS_WITH(with([](ZoneConfig& c) {
+                      c.windows = {{"pond", {4.0, 1.0}}};
+                    }),
+                    Catch::Contains("exchange them"));
+  CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.box.left = 50.0; }),
+                    Catch::Contains("box holds no liquefiable element"));
+  CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.base_nodes = {4711}; }),
+                    Catch::Contains("no node 4711"));
+  CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.densities.pop_back(); }),
+                    Catch::Contains("material 2 of element 1 has no density"));
+  CHECK_THROWS_WITH(with([](ZoneConfig& c) {
+                      c.densities.push_back({1, 1800.0});
+                    }),
+                    Catch::Contains("given twice"));
+  CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.transfer.when = TransferWhen::gravity; }),
+                    Catch::Contains("write zone: all"));
+  CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.zone = ZoneExtent::line; }),
+                    Catch::Contains("at least 2 points"));
+  CHECK_THROWS_WITH(with([](ZoneConfig& c) {
+                      c.line = {{0, 1}, {2, 1}};
+                    }),
+                    Catch::Contains("write zone: line"));
+  CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.pond_surface = kUnset; }),
+                    Catch::Contains("pond_surface"));
+  CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.transfer = {.when = TransferWhen::at, .at = 7.0}; }),
+                    Catch::Contains("outside the record"));
+}

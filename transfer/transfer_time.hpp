@@ -1,0 +1,78 @@
+#pragma once
+#include "config/schema.hpp"
+#include "model/zone.hpp"
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// The moment at which finite elements hand over to material points
+/// (docs/theory/liquefaction-zone.md, section 5).
+namespace flowslide {
+
+enum class TransferWhen { automatic, gravity, end, at };
+inline constexpr std::array<std::string_view, 4> kTransferWhens{"automatic", "gravity", "end",
+                                                                "at"};
+
+enum class EnergyFrame { relative, absolute };
+inline constexpr std::array<std::string_view, 2> kEnergyFrames{"relative", "absolute"};
+
+enum class JacobianPoint { gauss, centre };
+inline constexpr std::array<std::string_view, 2> kJacobianPoints{"gauss", "centre"};
+
+/// Parameters of `when: automatic`, also of the recorded Q.
+struct AutomaticTransfer {
+  EnergyFrame energy = EnergyFrame::relative;
+  double smoothing = 1.0;    ///< length of the trailing mean of the kinetic energy [s]
+  double growth = 2.0;       ///< onset: energy above this multiple of the envelope [-]
+  double sustain = 1.0;      ///< onset: for this long beyond the smoothing, larger at its end [s]
+  double development = 0.9;  ///< full development: share of the largest depth [-]
+  double strain_threshold = 0.03;  ///< eps_q from which elements count in Q [-]
+  double distortion_limit = 0.97;  ///< excessive distortion: Q below [-]
+  JacobianPoint jacobian = JacobianPoint::gauss;
+  double between = 0.5;  ///< 0 at full failure development, 1 at excessive distortion
+};
+
+struct TransferTimeConfig {
+  TransferWhen when = TransferWhen::automatic;
+  std::optional<double> at{};  ///< [s], with `when: at`
+  AutomaticTransfer automatic{};
+};
+
+/// `at` is given with `when: at` and only then. Throws InputError.
+void check(const TransferTimeConfig& config);
+
+struct TransferChoice {
+  int frame = -1;      ///< index into history.time, -1 for the gravity state
+  double time = 0.0;   ///< [s]
+  std::string reason;  ///< one sentence
+};
+
+/// Applies the rule to the recorded scalars. `base_energy` is KineticEnergy::base of each frame.
+/// Throws InputError if the history has no frames or the time is outside the record.
+TransferChoice choose_transfer(const TransferTimeConfig& config, const ZoneHistory& history,
+                               std::span<const double> base_energy);
+
+/// Mean of the samples in (t_i - length, t_i], for each i.
+std::vector<double> trailing_mean(std::span<const double> time, std::span<const double> value,
+                                  double length);
+
+/// First sample at which the kinetic energy leaves its pre-failure envelope for good.
+struct EnergyOnset {
+  std::size_t sample = 0;
+  double energy = 0.0;    ///< trailing mean [J/m]
+  double envelope = 0.0;  ///< [J/m]
+};
+std::optional<EnergyOnset> find_onset(const AutomaticTransfer& rule, const ZoneHistory& history,
+                                      std::span<const double> base_energy);
+
+template <>
+struct Schema<AutomaticTransfer> {
+  static constexpr std::string_view doc = "Criteria of the automatic transfer time.";
+  static void describe(FieldVisitor& v, AutomaticTransfer& c);
+};
+
+}  // namespace flowslide
