@@ -1,0 +1,107 @@
+#include "importers/opensees.hpp"
+#include "transfer/map_state.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+
+using namespace flowslide;
+
+namespace {
+
+/// The dam of the fixture at rest.
+FemHistory import_at_rest() {
+  const std::filesystem::path folder = FLOWSLIDE_FIXTURES "/opensees/dam-rio270";
+  const auto out =
+      std::filesystem::temp_directory_path() / fmt::format("flowslide-map-dam-{}.h5", getpid());
+  OpenSeesConfig c;
+  c.mesh.nodes = {folder / "nodeinfo.dat"};
+  c.mesh.elements = {folder / "elementinfo.dat"};
+  c.units = {"m", "s", "kPa"};
+  c.gravity.stress = {folder / "Gstress.out"};
+  c.gravity.pore_pressure = {folder / "GporePressure.out"};
+  import_opensees(c, out);
+  FemHistory history(out);
+  std::filesystem::remove(out);
+  return history;
+}
+
+/// All tailings have liquefied; S_r = 0.4616 sigma'_v0^0.576 in kPa.
+LiquefactionZone all_tailings(const FemHistory& history) {
+  const QuadMesh& mesh = history.mesh();
+  LiquefactionZone z;
+  z.r_u_node.assign(mesh.num_nodes(), 1.0);
+  z.r_u_element.assign(mesh.num_elements(), 1.0);
+  for (std::size_t e = 0; e < mesh.num_elements(); ++e) {
+    const bool tailings = mesh.element_material[e] == 168;
+    const double sigma_v0 = std::max(1.0, -history.gravity().stress[e][1] / 1e3);
+    z.liquefied.push_back(tailings ? 1 : 0);
+    z.strength.push_back(tailings ? 461.6 * std::pow(sigma_v0, 0.576) : kUnset);
+  }
+  return z;
+}
+
+MapMaterial soil(int tag, double density, double cohesion, double friction) {
+  MapMaterial m;
+  m.tags = {tag};
+  m.density = density;
+  m.law.mohr_coulomb.emplace();
+  m.law.mohr_coulomb->youngs_modulus = 20e6;
+  m.law.mohr_coulomb->poisson_ratio = 0.3;
+  m.law.mohr_coulomb->cohesion = cohesion;
+  m.law.mohr_coulomb->friction_angle = friction;
+  return m;
+}
+
+MapConfig dam() {
+  MapConfig c;
+  c.cell = 1.25;
+  c.c_soft_ratio = 0.5;
+  c.box = {-340.0, 87.5, -5.0, 100.0};
+  c.materials = {{"embankment", soil(167, 1690.0, 25e3, 0.611)},
+                 {"tailings", soil(168, 1870.0, 1e3, 0.524)}};
+  c.materials["tailings"].liquefied.emplace();
+  c.materials["tailings"].liquefied->youngs_modulus = 5e6;
+  c.materials["tailings"].liquefied->poisson_ratio = 0.49;
+  MapMaterial& foundation = c.materials["foundation"];
+  foundation.tags = {170};
+  foundation.density = 1900.0;
+  foundation.law.linear_elastic = LinearElastic::Params{100e6, 0.3};
+  foundation.counts_for_runout = false;
+  return c;
+}
+
+}  // namespace
+
+TEST_CASE("The dam of the fixture is handed over within the limits of the audit", "[transfer]") {
+  const FemHistory history = import_at_rest();
+  const LiquefactionZone zone = all_tailings(history);
+  MapConfig c = dam();
+  const MapResult r = map_state(history, zone, c);
+  CHECK(r.audit.passed());
+  CHECK(r.audit.mapped.nodes > 1000);
+  CHECK(r.audit.mapped.rms < 0.02);
+
+  double mass = 0.0, volume = 0.0;
+  for (std::size_t i = 0; i < r.particles.size(); ++i) {
+    mass += r.particles.mass[i];
+    volume += r.particles.volume[i];
+  }
+  double foundation = 0.0;
+  for (const AuditMaterial& m : r.audit.materials)
+    if (m.name == "foundation") foundation = m.volume;
+  CHECK(foundation == Approx(427.5 * 5.0).epsilon(1e-6));
+  CHECK(mass / volume > 1690.0);
+  CHECK(mass / volume < 1900.0);
+
+  // Keeping the vertical stress leaves the overburden carried; keeping the mean stress does not.
+  c.liquefied_return = LiquefiedReturn::mean_stress;
+  CHECK(map_state(history, zone, c).audit.returned.rms > 2.0 * r.audit.returned.rms);
+
+  // Effective stress has a kink at the water table, total stress has none.
+  c.mapped_stress = MappedStress::effective;
+  c.audit.enforce = false;
+  CHECK(map_state(history, zone, c).audit.mapped.rms > 1.3 * r.audit.mapped.rms);
+}
