@@ -36,7 +36,7 @@ double parse_quantity(std::string_view text, Dim dim);
 double unit_factor(std::string_view unit, Dim dim);
 
 /// Shortest text that reads back to the same double, followed by the SI unit: "2e+07 Pa".
-std::string to_text(double si_value, Dim dim);
+std::string to_text(double value, Dim dim);
 
 /// Locale-free: reads the longest number at the start; false if there is none. Accepts "+1", ".5",
 /// "5.", "1e-005", denormals; "nan" and "inf" are read as such.

@@ -1,0 +1,203 @@
+#include "workflows/engine/runner.hpp"
+
+#include "core/check.hpp"
+#include "tests/support/scratch.hpp"
+#include "tests/workflows/sample_stages.hpp"
+#include "workflows/engine/run_folder.hpp"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+using namespace flowslide;
+using Catch::Contains;
+using nlohmann::json;
+
+namespace {
+
+/// A run folder and a workflow of three stages: one, two -> sum.
+struct Bench {
+  Scratch scratch;
+  std::filesystem::path out = scratch / "out";
+  std::vector<StageType> types = sample::stages();
+  std::map<std::string, std::string> why;  ///< of the last run, by stage
+  std::vector<std::string> ran;
+
+  Workflow load(const std::vector<std::string>& set = {}) {
+    scratch.write("note.txt", note);
+    return load_workflow(
+        scratch.write("case.yaml",
+                      "schema: 1\nname: demo\nstages:\n"
+                      "  one: {uses: sample.number, with: {value: 1, note: note.txt}}\n"
+                      "  two: {uses: sample.number, with: {value: 2}}\n"
+                      "  sum: {uses: sample.sum, in: {a: one.number, b: two.number}}\n"),
+        set, types);
+  }
+  void run(const std::vector<std::string>& set = {}) {
+    why.clear();
+    ran.clear();
+    RunEvents events;
+    events.decided = [&](std::string_view stage, const Decision& d) {
+      why[std::string(stage)] = d.why;
+      if (d.action != Action::reuse) ran.emplace_back(stage);
+    };
+    run_workflow(load(set), {.folder = out}, events);
+  }
+  json result() { return json::parse(read_text_file(out / "result.json")); }
+  std::string note = "first note";
+};
+
+using Names = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("only what is not up to date runs, and says why", "[workflows]") {
+  Bench bench;
+  bench.run();
+  CHECK(bench.ran == Names{"one", "two", "sum"});
+  CHECK(bench.why["sum"] == "no result yet");
+  CHECK(bench.result()["sum"] == 3.0);
+
+  bench.run();
+  CHECK(bench.ran.empty());
+  CHECK(bench.why["sum"] == "up to date");
+
+  bench.run({"stages.sum.with.factor=2"});
+  CHECK(bench.ran == Names{"sum"});
+  CHECK(bench.why["sum"] == "settings changed (factor 1 -> 2)");
+  CHECK(bench.result()["sum"] == 6.0);
+
+  SECTION("going back costs nothing") {
+    bench.run();
+    CHECK(bench.ran.empty());
+    CHECK_THAT(bench.why["sum"], Contains("earlier result"));
+    CHECK(bench.result()["sum"] == 3.0);
+  }
+  SECTION("a changed input is passed on") {
+    bench.run({"stages.sum.with.factor=2", "stages.two.with.value=5"});
+    CHECK(bench.ran == Names{"two", "sum"});
+    CHECK(bench.why["sum"] == "input changed (b)");
+    CHECK(bench.result()["sum"] == 12.0);
+  }
+  SECTION("an output that comes out the same stops the chain") {
+    bench.run({"stages.sum.with.factor=2", "stages.two.with.value=2.1"});
+    CHECK(bench.ran == Names{"two"});
+  }
+  SECTION("the content of a named file counts") {
+    bench.note = "second note";
+    bench.run({"stages.sum.with.factor=2"});
+    CHECK(bench.ran == Names{"one"});
+    CHECK(bench.why["one"] == "settings changed (content of note)");
+  }
+  SECTION("a new version of a stage runs again") {
+    bench.types[1].version = 2;
+    bench.run({"stages.sum.with.factor=2"});
+    CHECK(bench.ran == Names{"sum"});
+    CHECK(bench.why["sum"] == "program's stage version changed 1 -> 2");
+  }
+}
+
+TEST_CASE("a damaged or missing result is made anew", "[workflows]") {
+  Bench bench;
+  bench.run();
+  const Workflow workflow = bench.load();
+  const auto plan = plan_workflow(workflow, bench.out);
+  const auto file = result_folder(bench.out, "sum", plan[2].decision.key) / "sum.txt";
+  SECTION("missing") {
+    std::filesystem::remove(file);
+    bench.run();
+    CHECK_THAT(bench.why["sum"], Contains("missing sum.txt"));
+  }
+  SECTION("another size") {
+    std::ofstream(file) << "33333\n";
+    bench.run();
+    CHECK_THAT(bench.why["sum"], Contains("sum.txt has 6 bytes, not 2"));
+  }
+  SECTION("same size, other content") {
+    std::ofstream(file) << "4\n";
+    bench.run();
+    CHECK_THAT(bench.why["sum"], Contains("content of sum.txt has changed"));
+  }
+  SECTION("a copied run folder is still up to date") {
+    std::ofstream(file) << "3\n";
+    bench.run();
+    CHECK(bench.ran.empty());
+    return;
+  }
+  CHECK(bench.ran == Names{"sum"});
+  CHECK(read_text_file(file) == "3\n");
+}
+
+TEST_CASE("result.json holds the promised names and what each stage took", "[workflows]") {
+  Bench bench;
+  bench.run();
+  bench.run({"stages.sum.with.factor=2"});
+  const json r = bench.result();
+  for (const char* name : {"runout_m", "liquefaction_depth_pond_m", "liquefaction_depth_crest_m",
+                           "transfer_time_s", "mass_error", "energy_error", "wall_s", "stages"})
+    CHECK(r.contains(name));
+  CHECK(r["runout_m"] == 1.5);  // both numbers say the same
+  CHECK(r["transfer_time_s"].is_null());
+  CHECK(r["stages"]["one"]["cached"] == true);
+  CHECK(r["stages"]["sum"]["cached"] == false);
+  CHECK(r["stages"]["sum"]["facts"]["sum"] == 6.0);
+  double sum = 0.0;
+  for (const auto& stage : r["stages"]) sum += stage["seconds"].get<double>();
+  CHECK(r["wall"]["stages_s"] == Approx(sum));
+  CHECK(r["wall_s"] == Approx(sum + r["wall"]["overhead_s"].get<double>()));
+}
+
+TEST_CASE("a failed run leaves nothing at the top that looks current", "[workflows]") {
+  Bench bench;
+  bench.run();
+  REQUIRE(std::filesystem::exists(bench.out / "sum.pvd"));
+  CHECK_THROWS_AS(bench.run({"stages.sum.with.fail=true"}), Error);
+  CHECK_THROWS_WITH(bench.run({"stages.sum.with.fail=true"}),
+                    Contains("sum: the sum did not converge"));
+  CHECK_FALSE(std::filesystem::exists(bench.out / "result.json"));
+  CHECK_FALSE(std::filesystem::exists(std::filesystem::symlink_status(bench.out / "sum.pvd")));
+  CHECK_FALSE(std::filesystem::exists(std::filesystem::symlink_status(bench.out / "view")));
+  bench.run();
+  CHECK(bench.ran.empty());
+  CHECK(std::filesystem::exists(bench.out / "result.json"));
+}
+
+TEST_CASE("published files work from the top of the run folder", "[workflows]") {
+  Bench bench;
+  bench.run();
+  const std::string pvd = read_text_file(bench.out / "sum.pvd");
+  const auto begin = pvd.find("file=\"") + 6;
+  const auto target = pvd.substr(begin, pvd.find('"', begin) - begin);
+  CHECK_FALSE(std::filesystem::path(target).is_absolute());
+  CHECK(read_text_file(bench.out / target) == "3");
+  CHECK(read_text_file(bench.out / "view/1.vtu") == "3");
+  std::filesystem::rename(bench.out, bench.scratch / "moved");
+  CHECK(read_text_file(bench.scratch / "moved/view/1.vtu") == "3");
+}
+
+TEST_CASE("a plan changes nothing", "[workflows]") {
+  Bench bench;
+  auto plan = plan_workflow(bench.load(), bench.out);
+  CHECK(plan[2].decision.action == Action::undecided);
+  CHECK(plan[2].decision.why == "no result yet");
+  CHECK_FALSE(std::filesystem::exists(bench.out));
+  bench.run();
+  plan = plan_workflow(bench.load({"stages.one.with.value=4"}), bench.out);
+  CHECK(plan[0].decision.why == "settings changed (value 1 -> 4)");
+  CHECK(plan[1].decision.action == Action::reuse);
+  CHECK(plan[2].decision.why == "input may change (a)");
+}
+
+TEST_CASE("a run folder belongs to one process and is not taken from others", "[workflows]") {
+  Bench bench;
+  {
+    const RunFolder holder(bench.out);
+    CHECK_THROWS_WITH(bench.run(), Contains("in use by another run"));
+    CHECK_THROWS_AS(bench.run(), FileError);
+  }
+  bench.run();
+  const Scratch foreign;
+  foreign.write("result.json", "{}");
+  CHECK_THROWS_WITH(RunFolder(foreign.path()), Contains("no run of flowslide"));
+  foreign.write("file", "x");
+  CHECK_THROWS_AS(RunFolder(foreign / "file"), FileError);
+}

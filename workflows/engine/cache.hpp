@@ -1,0 +1,35 @@
+#pragma once
+#include "workflows/engine/graph.hpp"
+#include "workflows/engine/record.hpp"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace flowslide {
+
+enum class Action {
+  reuse,      ///< a result for exactly this key lies in the run folder
+  run,        ///< from the start
+  resume,     ///< from the checkpoint of an interrupted session
+  undecided,  ///< an input is still to be made; only in a plan
+};
+
+struct Decision {
+  Action action = Action::run;
+  std::string why;                    ///< "settings changed (c_soft_ratio 1 -> 0.5)"
+  std::string key;                    ///< empty while undecided
+  std::optional<StageRecord> record;  ///< of the result to reuse
+};
+
+/// Decides about one stage. `inputs` holds the content hash of every connected port that is known;
+/// `previous` is what the run folder stood for before this call, and only explains.
+Decision decide(const std::filesystem::path& run_folder, const WorkflowStage& stage,
+                const std::map<std::string, std::string>& inputs,
+                const std::optional<StageRecord>& previous);
+
+/// "c_soft_ratio 1 -> 0.5, cell 1 m -> 2 m" from two canonical texts; at most three of them.
+std::string describe_changes(const std::string& before, const std::string& now);
+
+}  // namespace flowslide

@@ -1,0 +1,246 @@
+#include "workflows/engine/graph.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+
+namespace flowslide {
+namespace {
+
+constexpr int kSchemaVersion = 1;
+
+/// Collects the problems of a file so that the user sees all of them at once.
+class Problems {
+ public:
+  template <class F>
+  void collect(F&& part) {
+    try {
+      part();
+    } catch (const FileError& e) {
+      lines_.emplace_back(e.what());
+    } catch (const InputError& e) {
+      lines_.emplace_back(e.what());
+      wrong_input_ = true;
+    }
+  }
+  void raise() const {
+    if (lines_.empty()) return;
+    const std::string text = fmt::format("{}", fmt::join(lines_, "\n"));
+    if (wrong_input_) throw InputError(text);
+    throw FileError(text);
+  }
+
+ private:
+  std::vector<std::string> lines_;
+  bool wrong_input_ = false;
+};
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& known) {
+  const auto near = nearest(word, known);
+  return near ? fmt::format("Did you mean '{}'?", *near)
+              : fmt::format("Known: {}.", fmt::join(known, ", "));
+}
+
+void refuse_unknown_keys(const YamlNode& map, const std::vector<std::string>& known) {
+  for (const auto& [key, value] : map.entries()) {
+    if (std::find(known.begin(), known.end(), key) == known.end())
+      throw value.error(fmt::format("unknown key '{}' (it would have no effect). {}", key,
+                                    did_you_mean(key, known)));
+  }
+}
+
+/// Names become folders, so only characters that every file system and shell takes as they are.
+bool is_name(std::string_view text) {
+  return !text.empty() && text.size() <= 64 && std::isalnum(static_cast<unsigned char>(text[0])) &&
+         std::all_of(text.begin(), text.end(),
+                     [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
+}
+
+std::vector<std::string> names(const std::vector<Port>& ports) {
+  std::vector<std::string> out;
+  for (const Port& p : ports) out.push_back(p.name);
+  return out;
+}
+
+const Port* find_port(const std::vector<Port>& ports, std::string_view name) {
+  const auto it =
+      std::find_if(ports.begin(), ports.end(), [&](const Port& p) { return p.name == name; });
+  return it == ports.end() ? nullptr : &*it;
+}
+
+/// A stage as written, before its order is known; from_stage counts in file order.
+struct Draft {
+  WorkflowStage stage;
+  std::vector<YamlNode> link_nodes;
+};
+
+const StageType& find_type(const YamlNode& node, std::span<const StageType> types) {
+  const auto uses = node.find("uses");
+  if (!uses) throw node.error("the stage has no 'uses' (it must say what the stage does).");
+  const std::string& wanted = uses->scalar();
+  std::vector<std::string> known;
+  for (const StageType& type : types) {
+    if (type.name == wanted) return type;
+    known.push_back(type.name);
+  }
+  throw uses->error(fmt::format("there is no stage '{}'. {}", wanted, did_you_mean(wanted, known)));
+}
+
+/// Connects the ports of one stage; all types are known by now.
+void connect(Draft& draft, const YamlNode& node, const std::vector<Draft>& drafts) {
+  const StageType& type = draft.stage.type;
+  const auto in = node.find("in");
+  if (in) refuse_unknown_keys(*in, names(type.inputs));
+  std::vector<std::string> stage_names;
+  for (const Draft& d : drafts) stage_names.push_back(d.stage.name);
+
+  for (const Port& port : type.inputs) {
+    const auto source = in ? in->find(port.name) : std::nullopt;
+    if (!source) {
+      std::vector<std::string> candidates;
+      for (const Draft& d : drafts)
+        for (const Port& out : d.stage.type.outputs)
+          if (out.kind == port.kind) candidates.push_back(d.stage.name + "." + out.name);
+      throw in.value_or(node).error(fmt::format(
+          "input '{}' of stage '{}' is not connected (kind {}). {}", port.name, draft.stage.name,
+          port.kind,
+          candidates.empty() ? "No stage of this file makes that kind; add one that does."
+                             : fmt::format("Write 'in: {{{}: {}}}'.", port.name, candidates[0])));
+    }
+    const std::string& text = source->scalar();
+    const auto dot = text.rfind('.');
+    if (dot == std::string::npos)
+      throw source->error(fmt::format(
+          "'{}' names no output port (expected 'stage.port', e.g. 'shake.history').", text));
+    const std::string from = text.substr(0, dot), from_port = text.substr(dot + 1);
+    const auto it = std::find(stage_names.begin(), stage_names.end(), from);
+    if (it == stage_names.end())
+      throw source->error(fmt::format("there is no stage named '{}' in this file. {}", from,
+                                      did_you_mean(from, stage_names)));
+    const Draft& source_stage = drafts[static_cast<std::size_t>(it - stage_names.begin())];
+    if (source_stage.stage.type.name.empty()) continue;  // its own problem is already listed
+    const Port* out = find_port(source_stage.stage.type.outputs, from_port);
+    if (!out)
+      throw source->error(
+          fmt::format("stage '{}' ({}) has no output '{}'. {}", from, source_stage.stage.type.name,
+                      from_port, did_you_mean(from_port, names(source_stage.stage.type.outputs))));
+    if (out->kind != port.kind)
+      throw source->error(fmt::format(
+          "'{}' is of kind {} (input '{}' of {} takes {}). Connect an output of that kind.", text,
+          out->kind, port.name, type.name, port.kind));
+    draft.stage.inputs.push_back(
+        {port.name, static_cast<std::size_t>(it - stage_names.begin()), from_port});
+    draft.link_nodes.push_back(*source);
+  }
+}
+
+/// Depth first from `index`; appends to `order` after everything it needs. `path` is the chain of
+/// stages being visited.
+void visit(std::size_t index, const std::vector<Draft>& drafts, std::vector<std::size_t>& order,
+           std::vector<std::size_t>& path) {
+  if (std::find(order.begin(), order.end(), index) != order.end()) return;
+  path.push_back(index);
+  const Draft& draft = drafts[index];
+  for (std::size_t i = 0; i < draft.stage.inputs.size(); ++i) {
+    const std::size_t from = draft.stage.inputs[i].from_stage;
+    const auto seen = std::find(path.begin(), path.end(), from);
+    if (seen != path.end()) {
+      std::vector<std::string> chain{drafts[from].stage.name};
+      for (auto p = path.end(); p != seen;) chain.push_back(drafts[*--p].stage.name);
+      std::reverse(chain.begin(), chain.end());
+      throw draft.link_nodes[i].error(
+          fmt::format("the stages form a cycle: {} (a stage cannot wait for its own result). "
+                      "Connect this input to an earlier stage.",
+                      fmt::join(chain, " -> ")));
+    }
+    visit(from, drafts, order, path);
+  }
+  path.pop_back();
+  order.push_back(index);
+}
+
+/// Stages in the order in which they can run; otherwise as in the file.
+std::vector<WorkflowStage> sort_stages(std::vector<Draft>& drafts) {
+  std::vector<std::size_t> order, path;
+  for (std::size_t i = 0; i < drafts.size(); ++i) visit(i, drafts, order, path);
+  std::vector<std::size_t> position(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) position[order[k]] = k;
+  std::vector<WorkflowStage> sorted;
+  for (std::size_t index : order) {
+    for (Link& link : drafts[index].stage.inputs) link.from_stage = position[link.from_stage];
+    sorted.push_back(std::move(drafts[index].stage));
+  }
+  return sorted;
+}
+
+}  // namespace
+
+std::string workflow_name(const YamlNode& document) {
+  const auto node = document.find("name");
+  if (!node) throw document.error("the workflow has no 'name' (results are kept under it).");
+  const std::string& name = node->scalar();
+  if (!is_name(name))
+    throw node->error(fmt::format(
+        "'{}' cannot be a name (it becomes a folder). Use letters, digits, '-' and '_'.", name));
+  return name;
+}
+
+Workflow load_workflow(const std::filesystem::path& path, std::span<const std::string> overrides,
+                       std::span<const StageType> types) {
+  const YamlNode document = load_yaml(path, overrides);
+  Workflow workflow{
+      .name = {}, .file = path, .overrides = {overrides.begin(), overrides.end()}, .stages = {}};
+  Problems problems;
+  problems.collect([&] {
+    refuse_unknown_keys(document, {"schema", "name", "description", "stages"});
+  });
+  problems.collect([&] {
+    const auto schema = document.find("schema");
+    if (!schema)
+      throw document.error(
+          fmt::format("the file has no 'schema' (the version of its format). "
+                      "Write 'schema: {}' as its first line.",
+                      kSchemaVersion));
+    if (schema->scalar() != std::to_string(kSchemaVersion))
+      throw schema->error(fmt::format("schema {} is not known to this program (it reads {}).",
+                                      schema->scalar(), kSchemaVersion));
+  });
+  problems.collect([&] { workflow.name = workflow_name(document); });
+
+  const auto stages = document.find("stages");
+  problems.collect([&] {
+    if (!stages || stages->entries().empty())
+      throw stages.value_or(document).error("the workflow has no 'stages' (nothing to run).");
+  });
+  problems.raise();
+
+  std::vector<Draft> drafts;
+  const auto entries = stages->entries();
+  for (const auto& [name, node] : entries) {
+    Draft& draft = drafts.emplace_back();
+    draft.stage.name = name;
+    problems.collect([&, &name = name, &node = node] {
+      if (!is_name(name))
+        throw node.error(
+            fmt::format("'{}' cannot be a stage's name (it becomes a folder). "
+                        "Use letters, digits, '-' and '_'.",
+                        name));
+      refuse_unknown_keys(node, {"uses", "in", "with"});
+      draft.stage.type = find_type(node, types);
+    });
+    if (draft.stage.type.name.empty()) continue;
+    problems.collect([&, &node = node] {
+      draft.stage.prepared = draft.stage.type.prepare(node.find("with"), node);
+    });
+  }
+  for (std::size_t i = 0; i < drafts.size(); ++i) {
+    if (drafts[i].stage.type.name.empty()) continue;
+    problems.collect([&] { connect(drafts[i], entries[i].second, drafts); });
+  }
+  problems.collect([&] { workflow.stages = sort_stages(drafts); });
+  problems.raise();
+  return workflow;
+}
+
+}  // namespace flowslide

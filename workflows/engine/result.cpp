@@ -1,0 +1,65 @@
+#include "workflows/engine/program_version.hpp"
+#include "workflows/engine/runner.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace flowslide {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Promised to every reader of result.json; null if no stage of the workflow finds them.
+constexpr std::array<std::string_view, 6> kPromised{"runout_m",
+                                                    "liquefaction_depth_pond_m",
+                                                    "liquefaction_depth_crest_m",
+                                                    "transfer_time_s",
+                                                    "mass_error",
+                                                    "energy_error"};
+/// Names at the top that no stage can claim.
+constexpr std::array<std::string_view, 6> kReserved{"schema", "program", "workflow",
+                                                    "wall_s", "wall",    "stages"};
+
+}  // namespace
+
+std::string result_json(const Workflow& workflow, const std::vector<StageOutcome>& outcomes,
+                        double overhead) {
+  Json result = {{"schema", 1}, {"program", program_version()}, {"workflow", workflow.name}};
+  for (std::string_view name : kPromised) result[std::string(name)] = nullptr;
+
+  Json stages = Json::object();
+  std::set<std::string> found;
+  double stage_seconds = 0.0;
+  for (const auto& [record, decision] : outcomes) {
+    stage_seconds += record.seconds;
+    const Json facts = Json::parse(record.facts);
+    stages[record.stage] = {{"uses", record.uses},
+                            {"seconds", record.seconds},
+                            {"cached", decision.action == Action::reuse},
+                            {"why", decision.why},
+                            {"key", record.key},
+                            {"program", record.program},
+                            {"facts", facts}};
+    for (const auto& [name, value] : facts.items()) {
+      if (std::find(kReserved.begin(), kReserved.end(), name) != kReserved.end()) continue;
+      if (found.insert(name).second)
+        result[name] = value;
+      else if (result[name] != value)
+        result[name] = nullptr;
+    }
+  }
+  result["wall_s"] = stage_seconds + overhead;
+  result["wall"] = {{"stages_s", stage_seconds},
+                    {"overhead_s", overhead},
+                    {"meaning",
+                     "stages_s: the sessions that computed these stages, whenever that was; "
+                     "overhead_s: this call outside the stages; wall_s: their sum"}};
+  result["stages"] = stages;
+  return result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace flowslide

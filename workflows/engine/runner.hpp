@@ -1,0 +1,56 @@
+#pragma once
+#include "workflows/engine/cache.hpp"
+#include "workflows/engine/graph.hpp"
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flowslide {
+
+struct RunOptions {
+  std::filesystem::path folder;  ///< results go here
+  int threads = 1;
+  /// Set by a signal handler: the running stage writes a checkpoint and the run ends.
+  const std::atomic<bool>* stop_requested = nullptr;
+};
+
+/// What a run tells its caller.
+struct RunEvents {
+  /// A stage has been decided on, before it runs.
+  std::function<void(std::string_view stage, const Decision&)> decided = [](std::string_view,
+                                                                            const Decision&) {};
+  std::function<void(std::string_view stage, double fraction, std::string_view text)> progress =
+      [](std::string_view, double, std::string_view) {};
+  std::function<void(std::string_view stage, double seconds)> done = [](std::string_view, double) {
+  };
+};
+
+/// Brings the run folder up to date with the workflow and writes DIR/result.json. Finished stages
+/// are kept whatever happens later; while result.json is there, it belongs to this workflow.
+/// Throws Interrupted, FileError if another process uses the folder, and what the stages throw,
+/// with the stage's name in front.
+void run_workflow(const Workflow& workflow, const RunOptions& options, const RunEvents& events);
+
+struct PlanLine {
+  std::string stage;
+  Decision decision;
+};
+
+/// What run_workflow would do; reads the run folder, if there is one, and changes nothing.
+std::vector<PlanLine> plan_workflow(const Workflow& workflow, const std::filesystem::path& folder);
+
+/// Text of DIR/result.json: what the stages found, in SI units, each number under its own name at
+/// the top, null where no stage of the workflow finds it or two stages differ. `overhead` is the
+/// wall time of this call outside stages [s].
+struct StageOutcome {
+  StageRecord record;
+  Decision decision;
+};
+std::string result_json(const Workflow& workflow, const std::vector<StageOutcome>& outcomes,
+                        double overhead);
+
+}  // namespace flowslide

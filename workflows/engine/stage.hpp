@@ -1,0 +1,150 @@
+#pragma once
+#include "config/schema.hpp"
+#include "config/yaml.hpp"
+#include "core/progress.hpp"
+#include "workflows/engine/artifact.hpp"
+
+#include <concepts>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flowslide {
+
+/// What a stage may use besides its settings and files.
+struct RunContext {
+  std::filesystem::path folder;  ///< the stage's own: outputs and checkpoints go here
+  int threads = 1;
+  Progress progress;
+};
+
+struct StageResult {
+  std::string facts = "{}";  ///< JSON object; its entries go into result.json
+  /// Files and folders in the stage's folder that appear at the top of the run folder, by name.
+  std::vector<std::string> publish;
+};
+
+struct NoSettings {};
+template <>
+struct Schema<NoSettings> {
+  static constexpr std::string_view doc = "This stage has no settings.";
+  static void describe(FieldVisitor&, NoSettings&) {}
+};
+
+/// A stage declares everything the runner needs to order, skip, resume and explain it:
+///
+///     struct ZoneStage {
+///       static constexpr std::string_view name = "transfer.zone";  // what `uses:` says
+///       static constexpr std::string_view doc = "Finds the liquefied zone.";
+///       static constexpr int version = 1;           // raised when the same input gives new
+///       results static constexpr bool checkpoints = false;  // true: a killed run gets its folder
+///       back using Config = ZoneConfig;                  // has a Schema struct Inputs {
+///         Artifact<FemHistory> history;
+///         void visit(auto&& port) { port("history", history); }
+///       };
+///       struct Outputs {
+///         Artifact<LiquefactionZone> zone{"zone.h5"};
+///         void visit(auto&& port) { port("zone", zone); }
+///       };
+///       static StageResult run(const RunContext&, const Config&, const Inputs&, const Outputs&);
+///     };
+///
+/// `static void check(const Config&)` is called, if there is one, before anything runs.
+/// run() must give the same bytes for the same settings and inputs, whatever the number of threads.
+/// With `checkpoints`, run() looks into context.folder for its own checkpoint first.
+template <class S>
+concept Stage = requires(const RunContext& context, const typename S::Config& config,
+                         const typename S::Inputs& in, const typename S::Outputs& out) {
+  { S::name } -> std::convertible_to<std::string_view>;
+  { S::doc } -> std::convertible_to<std::string_view>;
+  { S::version } -> std::convertible_to<int>;
+  { S::checkpoints } -> std::convertible_to<bool>;
+  { S::run(context, config, in, out) } -> std::same_as<StageResult>;
+};
+
+struct Port {
+  std::string name;
+  std::string kind;
+  std::string file;  ///< outputs: name in the stage's folder
+};
+
+/// Paths of all inputs and outputs by port name.
+using PortPaths = std::map<std::string, std::filesystem::path>;
+
+/// A stage with its settings read and checked.
+struct PreparedStage {
+  std::string settings;  ///< canonical text
+  std::function<StageResult(const RunContext&, const PortPaths&)> run;
+};
+
+/// A Stage as a value; lists of these are what a workflow may use.
+struct StageType {
+  std::string name;
+  std::string doc;
+  int version = 0;
+  bool checkpoints = false;
+  std::vector<Port> inputs, outputs;
+  /// Reads and checks the settings. `with` is absent if the user gave none; `stage` is for
+  /// messages.
+  std::function<PreparedStage(const std::optional<YamlNode>& with, const YamlNode& stage)> prepare;
+  std::function<std::string()> json_schema;  ///< of the settings
+  std::function<std::string()> manual;       ///< Markdown table of the settings
+};
+
+namespace detail {
+
+template <class P>
+std::vector<Port> list_ports() {
+  std::vector<Port> ports;
+  P{}.visit([&]<class T>(std::string_view name, Artifact<T>& a) {
+    ports.push_back({std::string(name), std::string(kArtifactKind<T>), a.path.string()});
+  });
+  return ports;
+}
+
+template <class P>
+P bind_ports(const PortPaths& paths) {
+  P ports;
+  ports.visit([&]<class T>(std::string_view name, Artifact<T>& a) {
+    a.path = paths.at(std::string(name));
+  });
+  return ports;
+}
+
+}  // namespace detail
+
+template <Stage S>
+StageType stage_type() {
+  StageType type{.name = std::string(S::name),
+                 .doc = std::string(S::doc),
+                 .version = S::version,
+                 .checkpoints = S::checkpoints,
+                 .inputs = detail::list_ports<typename S::Inputs>(),
+                 .outputs = detail::list_ports<typename S::Outputs>(),
+                 .prepare = {},
+                 .json_schema = {},
+                 .manual = {}};
+  type.prepare = [](const std::optional<YamlNode>& with, const YamlNode& stage) {
+    using Config = typename S::Config;
+    const Config config = read_settings<Config>(with, stage.path() + ".with");
+    if constexpr (requires { S::check(config); }) {
+      try {
+        S::check(config);
+      } catch (const InputError& e) {
+        throw with.value_or(stage).error(e.what());
+      }
+    }
+    return PreparedStage{
+        canonical_text(config), [config](const RunContext& context, const PortPaths& paths) {
+          return S::run(context, config, detail::bind_ports<typename S::Inputs>(paths),
+                        detail::bind_ports<typename S::Outputs>(paths));
+        }};
+  };
+  return type;
+}
+
+}  // namespace flowslide
