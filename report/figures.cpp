@@ -12,6 +12,7 @@
 #include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 namespace flowslide {
 namespace {
@@ -73,7 +74,8 @@ void remove_old(const std::filesystem::path& folder) {
 }  // namespace
 
 DrawnFigures draw_figures(const std::filesystem::path& folder,
-                          const std::optional<std::string>& python) {
+                          const std::optional<std::string>& python,
+                          const std::vector<std::string>& only) {
   for (const auto& [name, text] : kPlotScripts) write_file(folder / "data" / name, text);
   remove_old(folder / "figures");
   const std::filesystem::path log = folder / "data" / "plot.log";
@@ -85,8 +87,10 @@ DrawnFigures draw_figures(const std::filesystem::path& folder,
                     python ? "'" + *python + "' cannot be used" : "none was found", kInstall);
     return drawn;
   }
-  const int status =
-      run({*interpreter, "-B", (folder / "data" / "plot.py").string(), folder.string()}, log);
+  std::vector<std::string> command{*interpreter, "-B", (folder / "data" / "plot.py").string(),
+                                   folder.string()};
+  command.insert(command.end(), only.begin(), only.end());
+  const int status = run(std::move(command), log);
   if (status != 0) {
     drawn.problem = fmt::format(
         "No figures were drawn: {} ended with status {} (see data/plot.log) run data/plot.py by "

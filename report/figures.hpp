@@ -14,7 +14,8 @@ struct Figure {
 };
 
 inline constexpr std::array kFigures{
-    Figure{"final_displacement", "Final geometry, coloured by displacement since the earthquake."},
+    Figure{"final_displacement",
+           "Final geometry, coloured by displacement from the undeformed section."},
     Figure{"final_materials", "Final geometry by material."},
     Figure{"final_strength",
            "Softening of the liquefied material: strength at the end / at transfer."},
@@ -30,8 +31,11 @@ struct DrawnFigures {
 /// Writes figures/<name>.svg and .png into a report folder that holds data/, runout.csv and
 /// zone.csv (write_plot_data, tables.hpp). The scripts are copied to data/ so that a user can
 /// change and rerun them. `python` is the interpreter; if empty, the first of `python3` on the PATH
-/// and /usr/bin/python3 that has matplotlib. Never throws for a missing or failing interpreter.
+/// and /usr/bin/python3 that has matplotlib.
+/// `only` names the figures to draw, all if empty. Never throws for a missing or failing
+/// interpreter.
 DrawnFigures draw_figures(const std::filesystem::path& folder,
-                          const std::optional<std::string>& python);
+                          const std::optional<std::string>& python,
+                          const std::vector<std::string>& only = {});
 
 }  // namespace flowslide

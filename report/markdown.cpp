@@ -38,7 +38,8 @@ std::string summary(const ReportFacts& f, const ReportConfig& c) {
                       f.runout, f.front);
   else
     out = fmt::format(
-        "**The section failed but nothing passed the toe: the runout is 0 m** (front at x = {:.1f} "
+        "**The section failed but its front did not pass the toe: the runout is 0 m** (front at x "
+        "= {:.1f} "
         "m). ",
         f.front);
   out += fmt::format(

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Draws the figures of a flowslide report.
 
-Usage: plot.py REPORT_FOLDER. Reads REPORT_FOLDER/data, runout.csv and zone.csv, and writes
-REPORT_FOLDER/figures/*.svg and *.png. Change the style here and run it again as you like.
+Usage: plot.py REPORT_FOLDER [NAME...]. Reads REPORT_FOLDER/data, runout.csv and zone.csv, and
+writes REPORT_FOLDER/figures/NAME.svg and .png, all figures if no name is given. Change the style
+here and run it again as you like.
 """
 import pathlib
 import sys
@@ -98,23 +99,24 @@ def save(figure, path, kind, metadata):
     partial.rename(path)
 
 
-def main(folder):
+def main(folder, names):
     section = plot_section.Section(folder / "data")
     read = lambda name: np.atleast_1d(np.genfromtxt(folder / name, delimiter=",", names=True))
     figures = {
-        "final_displacement": plot_section.final_displacement(section),
-        "final_materials": plot_section.final_materials(section),
-        "final_strength": plot_section.final_strength(section),
-        "section_before": plot_section.section_before(section),
-        "zone_history": zone_history(section, read("zone.csv")),
-        "flow_history": flow_history(read("runout.csv"))}
+        "final_displacement": lambda: plot_section.final_displacement(section),
+        "final_materials": lambda: plot_section.final_materials(section),
+        "final_strength": lambda: plot_section.final_strength(section),
+        "section_before": lambda: plot_section.section_before(section),
+        "zone_history": lambda: zone_history(section, read("zone.csv")),
+        "flow_history": lambda: flow_history(read("runout.csv"))}
     out = folder / "figures"
     out.mkdir(exist_ok=True)
-    for name, figure in figures.items():
+    for name in names or figures:
+        figure = figures[name]()
         if figure is not None:
             save(figure, out / f"{name}.svg", "svg", {"Date": None})
             save(figure, out / f"{name}.png", "png", {"Software": None})
 
 
 if __name__ == "__main__":
-    main(pathlib.Path(sys.argv[1]))
+    main(pathlib.Path(sys.argv[1]), sys.argv[2:])

@@ -162,8 +162,8 @@ def final_displacement(section):
         draw_outline(ax, section, inside=False)
         annotate_runout(ax, section)
     colour_bar(figure, shown, axes, "displacement (m)")
-    axes[-1].text(1, 1.02, f"grey: moved less than {section.info['moved_m']:g} m; line: section "
-                  "before the earthquake", transform=axes[-1].transAxes, ha="right", fontsize=7)
+    axes[-1].text(1, 1.02, f"grey: moved less than {section.info['moved_m']:g} m; line: undeformed "
+                  "section", transform=axes[-1].transAxes, ha="right", fontsize=7)
     return figure
 
 
