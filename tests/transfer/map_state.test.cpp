@@ -352,6 +352,32 @@ TEST_CASE("The same state comes from a file, and the audit is written", "[transf
   std::filesystem::remove_all(folder);
 }
 
+TEST_CASE("The published script's points are audited but not judged", "[transfer]") {
+  const auto path = std::filesystem::temp_directory_path() / "flowslide_map_sordo_test.h5";
+  const QuadMesh mesh = ground(0.15);
+  FemFrame gravity = geostatic(mesh);
+  {
+    FemHistoryWriter writer(path, mesh, {"test", "given", {}});
+    writer.set_gravity(gravity);
+    writer.finish();
+  }
+  MapConfig c = config();
+  c.compat = Compat::sordo2024;
+  c.sordo2024.emplace();
+  c.sordo2024->base_node = 100;
+  c.sordo2024->tailings = 1;
+  c.sordo2024->densities = {{1, kDensity}};
+  c.sordo2024->keep_x = {-1.0, 30.0};
+  const MapResult r = map_state(FemHistory(path), dry_zone(mesh), c);
+  std::filesystem::remove(path);
+  CHECK(r.particles.size() == 4 * mesh.num_elements());
+  CHECK(r.audit.passed());
+  CHECK_FALSE(r.audit.notes.empty());
+  CHECK(check_of(r.audit, "mass").error < 1e-9);
+  // sigma_zz is one of its defects: nothing of it arrives.
+  CHECK(check_of(r.audit, "stress_zz").error > 0.5);
+}
+
 TEST_CASE("Settings of the map are read from YAML", "[transfer]") {
   const auto path = std::filesystem::temp_directory_path() / "flowslide_map_config_test.yaml";
   std::ofstream(path) << R"(cell: 1.25 m
