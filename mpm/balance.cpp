@@ -1,0 +1,105 @@
+#include "mpm/balance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace flowslide::mpm {
+
+/// The paper's runout rule: the fifth-farthest point, so that a few lone points do not decide.
+constexpr std::ptrdiff_t kFrontRank = 5;
+
+template <int Dim>
+PointSums<Dim> sum_points(const Simulation<Dim>& s) {
+  const Points<Dim>& p = s.points;
+  const double affine = 0.25 * s.grid.h * s.grid.h;
+  PointSums<Dim> r;
+  for (std::size_t q = 0; q < p.size(); ++q) {
+    double v2 = 0.0, c2 = 0.0, lift = 0.0;
+    for (int d = 0; d < Dim; ++d) {
+      v2 += p.v[d][q] * p.v[d][q];
+      lift -= s.settings.gravity[d] * p.x[d][q];
+      r.momentum[d] += p.mass[q] * p.v[d][q];
+    }
+    for (const auto& c : p.c) c2 += c[q] * c[q];
+    Stress<Dim> sigma;
+    for (int k = 0; k < kVoigt<Dim>; ++k) sigma[k] = p.sigma[k][q];
+    const Elasticity& e = s.materials[p.material[q]].elastic;
+    const double mean = mean_stress(sigma);
+    const double stored =
+        p.volume[q] * (mean * mean / (2.0 * e.bulk) + j2(sigma) / (2.0 * e.shear));
+    r.mass += p.mass[q];
+    r.kinetic += 0.5 * p.mass[q] * (v2 + affine * c2);
+    r.potential += p.mass[q] * lift;
+    r.recoverable += stored;
+    if (!std::isfinite(v2 + c2 + lift + stored) && r.finite) {
+      r.finite = false;
+      r.first_bad = p.index[q];
+    }
+  }
+  return r;
+}
+
+template <int Dim>
+MpmSample sample(const Simulation<Dim>& s, const Reference<Dim>& reference,
+                 const std::vector<bool>& counts, std::vector<double>& scratch) {
+  const PointSums<Dim> now = sum_points(s);
+  const PointSums<Dim>& start = reference.start;
+  if (!now.finite) {
+    throw NumericsError(
+        fmt::format("step {}, t = {:.4f} s: particle {} is no longer finite (the state cannot be "
+                    "continued) try a "
+                    "smaller courant, or check the stiffness and strength of its material",
+                    s.step, s.time, now.first_bad));
+  }
+  MpmSample r;
+  r.time = s.time;
+  scratch.clear();
+  for (std::size_t q = 0; q < s.points.size(); ++q)
+    if (counts[s.points.material[q]]) scratch.push_back(s.points.x[0][q]);
+  const auto rank = std::min<std::ptrdiff_t>(kFrontRank, std::ssize(scratch)) - 1;
+  if (rank >= 0) {
+    std::nth_element(scratch.begin(), scratch.begin() + rank, scratch.end(), std::greater<>());
+    r.front = scratch[rank];
+    r.runout = std::max(0.0, r.front - reference.toe);
+  }
+
+  const Balance<Dim>& b = s.balance;
+  const double stress_power = 0.5 * (b.power_start + b.power_end);
+  r.kinetic = now.kinetic;
+  r.gravity_work = start.potential - now.potential;
+  r.strain_energy = now.recoverable - start.recoverable;
+  r.plastic_work = stress_power - r.strain_energy;
+  r.friction_work = -b.grid.boundary;
+  // Dissipation of the velocity transfer: what the grid gained and the points did not keep, at
+  // time-centred velocities (docs/theory/mpm.md, section Balances).
+  const double grid_gain = 0.5 * (b.grid.internal_start + b.grid.internal_end) + b.grid.gravity +
+                           b.grid.damping + b.grid.boundary;
+  const double transfer_loss =
+      grid_gain - (now.kinetic - start.kinetic) - 0.5 * (b.grid.internal_start + b.power_end);
+  r.damping_work = transfer_loss - b.grid.damping;
+  const double residual = r.gravity_work - (now.kinetic - start.kinetic) - r.strain_energy -
+                          r.plastic_work - r.friction_work - r.damping_work;
+  const double scale = std::max({std::abs(r.gravity_work), std::abs(stress_power), now.kinetic});
+  r.energy_error = scale > 0.0 ? residual / scale : 0.0;
+
+  double impulse = 0.0, momentum_residual = 0.0;
+  for (int d = 0; d < Dim; ++d) {
+    const double expected =
+        start.momentum[d] + b.grid.gravity_impulse[d] + b.grid.boundary_impulse[d];
+    momentum_residual = std::max(momentum_residual, std::abs(now.momentum[d] - expected));
+    impulse = std::max(impulse, std::abs(b.grid.gravity_impulse[d]));
+  }
+  r.momentum_error = impulse > 0.0 ? momentum_residual / impulse : 0.0;
+  r.mass_error = std::abs(now.mass - start.mass) / start.mass;
+  r.max_speed = std::sqrt(s.last.max_speed2);
+  r.dt = s.dt;
+  r.active_particles = 1.0;
+  return r;
+}
+
+template PointSums<2> sum_points<2>(const Simulation<2>&);
+template MpmSample sample<2>(const Simulation<2>&, const Reference<2>&, const std::vector<bool>&,
+                             std::vector<double>&);
+
+}  // namespace flowslide::mpm

@@ -1,0 +1,27 @@
+#pragma once
+#include "mpm/grid.hpp"
+#include "mpm/points.hpp"
+
+namespace flowslide::mpm {
+
+/// Buffers of bin_points, kept between calls so that binning allocates only while they grow.
+struct BinningScratch {
+  std::vector<std::int64_t> key;
+  std::vector<std::int32_t> order;
+  std::vector<double> real;
+  std::vector<std::int32_t> integer;
+};
+
+/// Sorts the points by (tile, material), ties in their present order, and rebuilds tiles, runs,
+/// colours and active blocks. `basis_shift` is where a basis function's support starts relative to
+/// its point in cells (0.5 for the quadratic spline). Boundary lists are left to the caller.
+template <int Dim>
+void bin_points(Points<Dim>& p, Grid<Dim>& grid, Tiling<Dim>& tiling, double basis_shift,
+                BinningScratch& scratch);
+
+/// Tiles, colours, neighbours and active blocks from tiling.tiles[].block/first/last and runs,
+/// which a checkpoint restores.
+template <int Dim>
+void link_tiles(Grid<Dim>& grid, Tiling<Dim>& tiling);
+
+}  // namespace flowslide::mpm

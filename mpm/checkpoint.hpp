@@ -1,0 +1,31 @@
+#pragma once
+#include "mpm/simulation.hpp"
+
+#include <array>
+#include <filesystem>
+#include <vector>
+
+/// Exact image of a run between two steps: continuing from it gives the same bits as never having
+/// stopped. Native byte order; meant for the same program on the same machine.
+namespace flowslide::mpm {
+
+/// What the driver of the run remembers beside the simulation.
+struct RunState {
+  std::size_t frames = 0, samples = 0;         ///< already in the history
+  double next_frame = 0.0, next_sample = 0.0;  ///< [s]
+  double peak_kinetic = 0.0;                   ///< [J]
+  double mass_start = 0.0, kinetic_start = 0.0, potential_start = 0.0, recoverable_start = 0.0;
+  std::array<double, 2> momentum_start{};
+  double first_dt = 0.0;                      ///< [s]
+  std::vector<std::array<double, 2>> recent;  ///< (time, front) of the rest window
+};
+
+/// Atomically replaces `path`. Throws FileError.
+void write_checkpoint(const std::filesystem::path& path, const Simulation<2>& s,
+                      const RunState& run);
+
+/// Fills what a run changes; settings, materials and boundaries stay as they are. Throws FileError
+/// if the file is damaged or belongs to another number of points.
+void read_checkpoint(const std::filesystem::path& path, Simulation<2>& s, RunState& run);
+
+}  // namespace flowslide::mpm

@@ -1,0 +1,159 @@
+#include "mpm/flow.hpp"
+
+#include "mpm/balance.hpp"
+#include "mpm/checkpoint.hpp"
+#include "mpm/load.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+
+namespace flowslide {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Scratch = mpm::StepScratch<2>;
+using Basis = mpm::QuadraticBSpline;
+
+constexpr double kCheckpointSeconds = 15.0;  ///< wall time between checkpoints
+constexpr double kReportSeconds = 0.2;       ///< wall time between progress reports
+/// A step that shrank this much means that the state has gone wrong, not that the flow is fast.
+constexpr double kDtCollapse = 1e-5;
+
+double seconds_since(Clock::time_point t) {
+  return std::chrono::duration<double>(Clock::now() - t).count();
+}
+
+void advance_once(mpm::Simulation<2>& s, Scratch& scratch, TransferScheme scheme) {
+  if (scheme == TransferScheme::apic)
+    mpm::advance<2, Basis, mpm::Transfer::apic>(s, scratch);
+  else
+    mpm::advance<2, Basis, mpm::Transfer::tpic>(s, scratch);
+}
+
+/// The history keeps particles in order of id; the solver's `index` refers to that order.
+void index_by_id(mpm::Simulation<2>& s, const ParticleSet& particles) {
+  std::vector<std::int32_t> order(particles.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](auto a, auto b) { return particles.id[a] < particles.id[b]; });
+  for (std::size_t rank = 0; rank < order.size(); ++rank)
+    s.points.index[order[rank]] = static_cast<std::int32_t>(rank);
+}
+
+bool at_rest(const mpm::RunState& run, const MpmSample& now, const RestSettings& rest) {
+  if (now.time < rest.window || run.recent.empty()) return false;
+  const auto [low, high] =
+      std::minmax_element(run.recent.begin(), run.recent.end(),
+                          [](const auto& a, const auto& b) { return a[1] < b[1]; });
+  return now.kinetic <= rest.kinetic_share * run.peak_kinetic &&
+         (*high)[1] - (*low)[1] < rest.runout_change;
+}
+
+void check_step(const mpm::Simulation<2>& s, double first_dt) {
+  const bool finite =
+      std::isfinite(s.last.max_speed2) && std::isfinite(s.last.max_strain) && std::isfinite(s.dt);
+  if (finite && s.dt > kDtCollapse * first_dt) return;
+  throw NumericsError(fmt::format(
+      "step {}, t = {:.4f} s: {} (fastest point {:.3g} m/s, step {:.3g} s against {:.3g} s at the "
+      "start; the state has "
+      "become unphysical) check strengths and stiffness of the materials, or try a smaller courant",
+      s.step, s.time, finite ? "the time step has collapsed" : "velocities are no longer finite",
+      std::sqrt(s.last.max_speed2), s.dt, first_dt));
+}
+
+}  // namespace
+
+FlowFacts run_flow(const ParticleSet& particles, const FlowConfig& config, const FlowPaths& paths,
+                   int threads, const Progress& progress) {
+  mpm::Simulation<2> s = mpm::make_simulation(particles, config);
+  index_by_id(s, particles);
+  Scratch scratch(std::max(1, threads));
+  mpm::RunState run;
+  const bool resume = std::filesystem::exists(paths.checkpoint);
+  if (resume) mpm::read_checkpoint(paths.checkpoint, s, run);
+  mpm::prepare<2, Basis>(s, scratch, !resume);
+  if (!resume) {
+    const mpm::PointSums<2> start = mpm::sum_points(s);
+    run.mass_start = start.mass;
+    run.kinetic_start = start.kinetic;
+    run.potential_start = start.potential;
+    run.recoverable_start = start.recoverable;
+    run.momentum_start = start.momentum;
+    run.first_dt = mpm::stable_step<2, Basis>(s);
+  }
+  mpm::Reference<2> reference{{run.mass_start, run.kinetic_start, run.potential_start,
+                               run.recoverable_start, run.momentum_start, true, -1},
+                              config.toe};
+  std::vector<bool> counts;
+  for (const MaterialSpec& m : particles.materials) counts.push_back(m.counts_for_runout);
+
+  std::optional<MpmHistoryWriter> history;
+  if (resume)
+    history.emplace(paths.history, run.frames, run.samples);
+  else
+    history.emplace(paths.history, particles);
+
+  FlowFacts facts;
+  MpmFrame frame;
+  std::vector<double> front_scratch;
+  const auto store = [&] {
+    mpm::store_frame(s, frame);
+    history->append(frame);
+    ++run.frames;
+    run.next_frame += config.frame_interval;
+  };
+  const auto checkpoint = [&] {
+    history->flush();
+    mpm::write_checkpoint(paths.checkpoint, s, run);
+  };
+  if (!resume) store();
+
+  const Clock::time_point start = Clock::now();
+  Clock::time_point last_checkpoint = start, last_report = start;
+  const std::int64_t first_step = s.step;
+  facts.last.time = s.time;
+  for (bool done = false; !done;) {
+    advance_once(s, scratch, config.transfer);
+    check_step(s, run.first_dt);
+    done = s.time >= config.end;
+    if (s.time >= run.next_sample || done) {
+      facts.last = mpm::sample(s, reference, counts, front_scratch);
+      history->append(facts.last);
+      ++run.samples;
+      while (run.next_sample <= s.time) run.next_sample += config.sample_interval;
+      run.peak_kinetic = std::max(run.peak_kinetic, facts.last.kinetic);
+      run.recent.push_back({s.time, facts.last.front});
+      std::erase_if(run.recent, [&](const auto& r) { return r[0] < s.time - config.rest.window; });
+      facts.at_rest = at_rest(run, facts.last, config.rest);
+      done = done || facts.at_rest;
+    }
+    if (s.time >= run.next_frame || done) store();
+    if (seconds_since(last_report) > kReportSeconds || done) {
+      progress.report(done ? 1.0 : s.time / config.end,
+                      fmt::format("t {:.1f} s, runout {:.1f} m, fastest {:.2f} m/s", s.time,
+                                  facts.last.runout, std::sqrt(s.last.max_speed2)));
+      last_report = Clock::now();
+    }
+    if (!done && progress.should_stop()) {
+      checkpoint();
+      throw Interrupted(fmt::format(
+          "interrupted at t = {:.2f} s; the same command continues from there", s.time));
+    }
+    if (!done && seconds_since(last_checkpoint) > kCheckpointSeconds) {
+      checkpoint();
+      last_checkpoint = Clock::now();
+    }
+  }
+  facts.step_seconds = seconds_since(start);
+  history->finish();
+  std::filesystem::remove(paths.checkpoint);
+  facts.end_time = s.time;
+  facts.steps = s.step;
+  facts.point_updates = static_cast<double>(s.step) * static_cast<double>(s.points.size());
+  facts.updates_this_call =
+      static_cast<double>(s.step - first_step) * static_cast<double>(s.points.size());
+  return facts;
+}
+
+}  // namespace flowslide

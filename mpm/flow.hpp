@@ -1,0 +1,33 @@
+#pragma once
+#include "core/progress.hpp"
+#include "model/mpm_history.hpp"
+#include "mpm/flow_config.hpp"
+
+#include <filesystem>
+
+/// The runout stage: from transferred points to rest.
+namespace flowslide {
+
+struct FlowPaths {
+  std::filesystem::path history;     ///< the MpmHistory to write
+  std::filesystem::path checkpoint;  ///< written now and then; read first if it exists
+};
+
+struct FlowFacts {
+  double end_time = 0.0;  ///< simulated time reached [s]
+  bool at_rest = false;   ///< false: stopped by `end`
+  std::int64_t steps = 0;
+  double point_updates = 0.0;  ///< steps x points
+  double step_seconds = 0.0;   ///< wall time of this call spent in steps [s]
+  double updates_this_call = 0.0;
+  MpmSample last;  ///< the final row of the time series
+};
+
+/// Runs to rest or to config.end. With an existing checkpoint of the same run, continues from it:
+/// the history is then bit for bit that of an uninterrupted run. Throws InputError for particles
+/// the solver cannot start from, NumericsError naming step, time and particle, FileError,
+/// Interrupted.
+FlowFacts run_flow(const ParticleSet& particles, const FlowConfig& config, const FlowPaths& paths,
+                   int threads, const Progress& progress);
+
+}  // namespace flowslide

@@ -1,0 +1,78 @@
+#include "mpm/flow_config.hpp"
+
+namespace flowslide {
+
+void check(const FlowConfig& c) {
+  validate(!c.ground.surface.empty(),
+           "ground.surface is empty (soil would fall for ever) give at least one point");
+  for (std::size_t i = 1; i < c.ground.surface.size(); ++i) {
+    validate(
+        c.ground.surface[i][0] >= c.ground.surface[i - 1][0],
+        "ground.surface: point {} lies left of point {} (x must not decrease) sort the points by x",
+        i + 1, i);
+  }
+  validate(!c.left_roller || !c.right_roller || *c.left_roller < *c.right_roller,
+           "left_roller is not left of right_roller (nothing lies between them) swap them");
+}
+
+void Schema<SofteningSettings>::describe(FieldVisitor& v, SofteningSettings& c) {
+  v.flag("regularise", c.regularise,
+         "scale softening strains by reference_length / cell (crack band); off: results depend on "
+         "the cell size");
+  v.quantity("reference_length", c.reference_length, Dim::length, {.above = 0.0},
+             "cell size at which the softening strains hold as they are given");
+}
+
+void Schema<RestSettings>::describe(FieldVisitor& v, RestSettings& c) {
+  v.quantity("kinetic_share", c.kinetic_share, Dim::none, {.min = 0.0, .max = 1.0},
+             "kinetic energy below this share of its peak");
+  v.quantity("runout_change", c.runout_change, Dim::length, {.min = 0.0},
+             "front moved less than this within the window");
+  v.quantity("window", c.window, Dim::time, {.above = 0.0},
+             "length of the window; also the shortest run");
+}
+
+void Schema<GroundSettings>::describe(FieldVisitor& v, GroundSettings& c) {
+  static constexpr std::array<FieldVisitor::Column, 2> columns{
+      {{"x", Dim::length}, {"y", Dim::length}}};
+  v.rows("surface", c.surface, columns,
+         "surface from left to right, level beyond its ends; a repeated x is a vertical step");
+  v.quantity("friction", c.friction, Dim::none, {.min = 0.0}, "Coulomb friction coefficient");
+}
+
+void Schema<FlowConfig>::describe(FieldVisitor& v, FlowConfig& c) {
+  static constexpr std::array<std::string_view, 2> transfers{"apic", "tpic"};
+  static constexpr std::array<std::string_view, 2> averages{"auto", "off"};
+  v.quantity("cell", c.cell, Dim::length, {.above = 0.0}, "size of the square grid cells");
+  v.tuple("grid_origin", c.grid_origin, Dim::length, "position of a grid node");
+  v.quantity("toe", c.toe, Dim::length, {},
+             "x of the toe of the undeformed section; runout is counted from here");
+  v.quantity("end", c.end, Dim::time, {.above = 0.0},
+             "latest end; the run stops earlier when all is at rest");
+  v.group("ground", c.ground, Schema<GroundSettings>::doc);
+  v.quantity("left_roller", c.left_roller, Dim::length, {},
+             "x of a vertical frictionless wall upstream");
+  v.quantity("right_roller", c.right_roller, Dim::length, {},
+             "x of a vertical frictionless wall downstream");
+  v.group("softening", c.softening, Schema<SofteningSettings>::doc);
+  v.choice("transfer", c.transfer, transfers, "velocity transfer between grid and points");
+  v.choice("volume_average", c.volume_average, averages,
+           "F-bar against volumetric locking: auto averages materials with Poisson's ratio of 0.4 "
+           "or more");
+  v.quantity("gravity", c.gravity, Dim::acceleration, {.min = 0.0}, "acceleration of gravity");
+  v.quantity("courant", c.courant, Dim::none, {.max = 1.0, .above = 0.0},
+             "share of the stable time step");
+  v.quantity("velocity_limit", c.velocity_limit, Dim::none, {.max = 0.5, .above = 0.0},
+             "cells that the fastest point may cross in a step");
+  v.quantity("strain_limit", c.strain_limit, Dim::none, {.max = 0.2, .above = 0.0},
+             "largest norm of the velocity gradient times the step");
+  v.quantity("damping", c.damping, Dim::none, {.min = 0.0, .below = 1.0},
+             "local non-viscous damping factor (Cundall)");
+  v.group("rest", c.rest, Schema<RestSettings>::doc);
+  v.quantity("frame_interval", c.frame_interval, Dim::time, {.above = 0.0},
+             "time between stored states");
+  v.quantity("sample_interval", c.sample_interval, Dim::time, {.above = 0.0},
+             "time between rows of the time series");
+}
+
+}  // namespace flowslide

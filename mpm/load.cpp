@@ -1,0 +1,156 @@
+#include "mpm/load.hpp"
+
+#include <cmath>
+
+namespace flowslide::mpm {
+namespace {
+
+/// F-bar pays where pressure would lock: K/G at nu = 0.4 and above.
+constexpr double kAverageRatio = 4.6;
+
+SolverMaterial solver_material(const MaterialSpec& spec, const FlowConfig& config) {
+  const double scale =
+      config.softening.regularise ? config.cell / config.softening.reference_length : 1.0;
+  return std::visit(
+      [&]<class M>(const Material<M>& m) {
+        const Elasticity e = M::elasticity(m.params);
+        return SolverMaterial{Typed<M>{M::constants(m.params, scale)}, e,
+                              e.bulk > kAverageRatio * e.shear};
+      },
+      from_parameters(spec.law, spec.parameters));
+}
+
+/// Start values of a material's state variables and, by name, those the particles bring.
+struct StateSource {
+  std::vector<double> defaults;
+  std::vector<const std::vector<double>*> arrays;  ///< null: default
+  std::vector<std::string_view> names;
+};
+
+StateSource state_source(const MaterialSpec& spec, const ParticleSet& particles) {
+  return std::visit(
+      [&]<class M>(const Material<M>& m) {
+        StateSource s;
+        constexpr std::size_t n = M::state_names.size();
+        static_assert(n <= kMaxState);
+        std::array<double, n> initial{};
+        if constexpr (n > 0)
+          initial = std::bit_cast<std::array<double, n>>(M::initial_state(m.params));
+        for (std::size_t i = 0; i < n; ++i) {
+          s.names.push_back(M::state_names[i]);
+          s.defaults.push_back(initial[i]);
+          const auto found = particles.history.find(std::string(M::state_names[i]));
+          const bool pore = M::state_names[i] == "pore_pressure";
+          s.arrays.push_back(found != particles.history.end() ? &found->second
+                             : pore                           ? &particles.pore_pressure
+                                                              : nullptr);
+        }
+        return s;
+      },
+      from_parameters(spec.law, spec.parameters));
+}
+
+}  // namespace
+
+Simulation<2> make_simulation(const ParticleSet& particles, const FlowConfig& config) {
+  check(particles);
+  check(config);
+  validate(particles.dim == 2,
+           "the particles are three-dimensional (this stage runs plane strain)");
+  validate(particles.size() > 0, "there are no particles to run");
+
+  Simulation<2> s;
+  s.grid.h = config.cell;
+  s.grid.origin = config.grid_origin;
+  s.settings.gravity = {0.0, -config.gravity, 0.0};
+  s.settings.courant = config.courant;
+  s.settings.velocity_limit = config.velocity_limit;
+  s.settings.strain_limit = config.strain_limit;
+  s.settings.cundall = config.damping;
+  s.settings.average_volume = config.volume_average == VolumeAverage::automatic;
+  for (const auto& point : config.ground.surface) {
+    s.ground.x.push_back(point[0]);
+    s.ground.height.push_back(point[1]);
+  }
+  s.ground.friction = config.ground.friction;
+  if (config.left_roller) s.rollers.left = *config.left_roller;
+  if (config.right_roller) s.rollers.right = *config.right_roller;
+
+  std::vector<StateSource> sources;
+  for (const MaterialSpec& spec : particles.materials) {
+    s.materials.push_back(solver_material(spec, config));
+    sources.push_back(state_source(spec, particles));
+  }
+
+  const std::size_t n = particles.size();
+  Points<2>& p = s.points;
+  visit_arrays(p, [&](auto& array) { array.assign(n, {}); });
+  double density = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (int d = 0; d < 2; ++d) {
+      p.x[d][i] = particles.position[i][d];
+      p.v[d][i] = particles.velocity[i][d];
+    }
+    for (int k = 0; k < 4; ++k) p.sigma[k][i] = particles.stress[i][k];
+    p.mass[i] = particles.mass[i];
+    p.volume[i] = particles.volume[i];
+    p.material[i] = particles.material[i];
+    p.index[i] = static_cast<std::int32_t>(i);
+    density = std::max(density, p.mass[i] / p.volume[i]);
+    const StateSource& source = sources[p.material[i]];
+    for (std::size_t k = 0; k < source.names.size(); ++k) {
+      const double value = source.arrays[k] ? (*source.arrays[k])[i] : source.defaults[k];
+      p.state[k][i] = value;
+      validate(std::isfinite(value),
+               "particle {} of material '{}' has no '{}' (its law needs it) give it in the "
+               "material or per particle",
+               particles.id[i], particles.materials[p.material[i]].name, source.names[k]);
+    }
+    const double depth = s.ground.level(p.x[0][i]) - p.x[1][i];
+    validate(!(depth > 0.5 * config.cell),
+             "particle {} at ({:.2f}, {:.2f}) lies {:.2f} m inside the ground (it would be thrown "
+             "out) lower "
+             "ground.surface or raise the transfer box",
+             particles.id[i], p.x[0][i], p.x[1][i], depth);
+    const Elasticity& e = s.materials[p.material[i]].elastic;
+    s.last.max_wave2 =
+        std::max(s.last.max_wave2, (e.bulk + 2.0 * e.shear) * p.volume[i] / p.mass[i]);
+    s.last.max_speed2 = std::max(s.last.max_speed2, p.v[0][i] * p.v[0][i] + p.v[1][i] * p.v[1][i]);
+  }
+  s.full_mass = density * config.cell * config.cell;
+  return s;
+}
+
+void store_frame(const Simulation<2>& s, MpmFrame& frame) {
+  const Points<2>& p = s.points;
+  const std::size_t n = p.size();
+  frame.time = s.time;
+  frame.position.resize(n);
+  frame.velocity.resize(n);
+  frame.stress.resize(n);
+  frame.volume.resize(n);
+  frame.plastic_strain.resize(n);
+  frame.strength.resize(n);
+  for (std::size_t q = 0; q < n; ++q) {
+    const auto i = static_cast<std::size_t>(p.index[q]);
+    frame.position[i] = {p.x[0][q], p.x[1][q], 0.0};
+    frame.velocity[i] = {p.v[0][q], p.v[1][q], 0.0};
+    frame.stress[i] = {p.sigma[0][q], p.sigma[1][q], p.sigma[2][q], p.sigma[3][q], 0.0, 0.0};
+    frame.volume[i] = p.volume[q];
+    std::visit(
+        [&]<class M>(const Typed<M>& law) {
+          constexpr std::size_t states = M::state_names.size();
+          std::array<double, states> values{};
+          for (std::size_t k = 0; k < states; ++k) values[k] = p.state[k][q];
+          typename M::State state{};
+          if constexpr (states > 0) state = std::bit_cast<typename M::State>(values);
+          frame.plastic_strain[i] = 0.0;
+          if constexpr (requires { state.plastic_strain; })
+            frame.plastic_strain[i] = state.plastic_strain;
+          frame.strength[i] = M::present_strength(law.constants, state);
+        },
+        s.materials[p.material[q]].law);
+  }
+}
+
+}  // namespace flowslide::mpm

@@ -1,0 +1,16 @@
+#pragma once
+#include "model/mpm_history.hpp"
+#include "mpm/flow_config.hpp"
+#include "mpm/simulation.hpp"
+
+/// Between ParticleSet and the solver's arrays.
+namespace flowslide::mpm {
+
+/// A simulation at time zero, binned. Throws InputError (unknown law, missing state, points inside
+/// the ground) naming material and particle.
+Simulation<2> make_simulation(const ParticleSet& particles, const FlowConfig& config);
+
+/// Fills a frame in the order of the ParticleSet; arrays must have its size.
+void store_frame(const Simulation<2>& s, MpmFrame& frame);
+
+}  // namespace flowslide::mpm

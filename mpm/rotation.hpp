@@ -1,0 +1,43 @@
+#pragma once
+#include "core/voigt.hpp"
+
+#include <array>
+
+/// Corotational part of the stress update: sigma -> R sigma R^T with R from the spin W = (L -
+/// L^T)/2 by the mid-point rule (Hughes & Winget 1980, IJNME 15), exactly orthogonal, second order
+/// in dt.
+namespace flowslide::mpm {
+
+/// `spin_dt` is W_yx dt, the in-plane rotation angle of the step, counter-clockwise [rad].
+inline Stress<2> rotate(const Stress<2>& s, double spin_dt) noexcept {
+  const double t = 0.5 * spin_dt, denominator = 1.0 / (1.0 + t * t);
+  const double c = (1.0 - t * t) * denominator, n = 2.0 * t * denominator;
+  const double cc = c * c, nn = n * n, cn = c * n;
+  Stress<2> r;
+  r[0] = cc * s[0] + nn * s[1] - 2.0 * cn * s[3];
+  r[1] = nn * s[0] + cc * s[1] + 2.0 * cn * s[3];
+  r[2] = s[2];
+  r[3] = cn * (s[0] - s[1]) + (cc - nn) * s[3];
+  return r;
+}
+
+/// `w` is the rotation vector of the step (x, y, z components) [rad].
+inline Stress<3> rotate(const Stress<3>& s, const std::array<double, 3>& w) noexcept {
+  // Cayley transform of the skew matrix of w, written for a vector a = w / 2.
+  const double ax = 0.5 * w[0], ay = 0.5 * w[1], az = 0.5 * w[2];
+  const double a2 = ax * ax + ay * ay + az * az, k = 2.0 / (1.0 + a2);
+  const double r[3][3] = {{1 - k * (ay * ay + az * az), k * (ax * ay - az), k * (ax * az + ay)},
+                          {k * (ax * ay + az), 1 - k * (ax * ax + az * az), k * (ay * az - ax)},
+                          {k * (ax * az - ay), k * (ay * az + ax), 1 - k * (ax * ax + ay * ay)}};
+  const double m[3][3] = {{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}};
+  double t[3][3], o[3][3];
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) t[i][j] = r[i][0] * m[0][j] + r[i][1] * m[1][j] + r[i][2] * m[2][j];
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) o[i][j] = t[i][0] * r[j][0] + t[i][1] * r[j][1] + t[i][2] * r[j][2];
+  Stress<3> out;
+  out.v = {o[0][0], o[1][1], o[2][2], o[0][1], o[1][2], o[0][2]};
+  return out;
+}
+
+}  // namespace flowslide::mpm

@@ -1,0 +1,77 @@
+#pragma once
+#include "mpm/binning.hpp"
+#include "mpm/boundary.hpp"
+#include "mpm/momentum.hpp"
+#include "mpm/stress.hpp"
+
+#include <cstdint>
+#include <vector>
+
+/// The state of a run and one time step.
+namespace flowslide::mpm {
+
+struct StepSettings {
+  std::array<double, 3> gravity{};  ///< [m/s2]
+  double courant = 0.9;             ///< share of the stable step of docs/theory/time-step.md
+  double velocity_limit = 0.2;      ///< cells the fastest point may cross in a step
+  double strain_limit = 0.05;       ///< largest |L| dt aimed at
+  double cundall = 0.0;             ///< local damping [-]
+  bool average_volume = true;       ///< F-bar
+};
+
+/// Sums since the start; with the points' own energies they close the balances.
+template <int Dim>
+struct Balance {
+  GridWork<Dim> grid;
+  double power_start = 0.0;  ///< sum of StressWork::power_start [J]
+  double power_end = 0.0;    ///< sum of StressWork::power_end [J]
+};
+
+template <int Dim>
+struct Simulation {
+  Points<Dim> points;
+  std::vector<SolverMaterial> materials;
+  Grid<Dim> grid;
+  Tiling<Dim> tiling;
+  Ground ground;
+  Rollers rollers;
+  StepSettings settings;
+  double full_mass = 0.0;  ///< mass of a full cell [kg], the scale of the mass floor
+
+  double time = 0.0;  ///< [s]
+  double dt = 0.0;    ///< last step [s]
+  std::int64_t step = 0;
+  double drift = 0.0;  ///< bound of what any point moved since the points were binned [m]
+  StressWork last;     ///< of the last step; decides the next dt
+  Balance<Dim> balance;
+
+  [[nodiscard]] bool averages(std::int32_t material) const {
+    return settings.average_volume && materials[material].average_volume;
+  }
+};
+
+/// Buffers of a step, one set per thread where threads write.
+template <int Dim>
+struct StepScratch {
+  BinningScratch binning;
+  std::vector<TileScratch<Dim>> tile;    ///< per thread
+  std::vector<StressWork> stress_work;   ///< per tile
+  std::vector<GridWork<Dim>> grid_work;  ///< per block
+  explicit StepScratch(int threads) : tile(threads) {}
+};
+
+/// Time step by the point bound of docs/theory/time-step.md, the velocity and the strain limit [s].
+template <int Dim, class Basis>
+double stable_step(const Simulation<Dim>& s);
+
+/// Brings tiles and boundary lists up to date with the points; sizes the scratch. Also called after
+/// a checkpoint was read, then with tiles as they were (`rebin` false).
+template <int Dim, class Basis>
+void prepare(Simulation<Dim>& s, StepScratch<Dim>& scratch, bool rebin);
+
+/// One step; nothing in it allocates, throws or depends on the number of threads, unless the points
+/// are binned anew.
+template <int Dim, class Basis, Transfer kTransfer>
+void advance(Simulation<Dim>& s, StepScratch<Dim>& scratch);
+
+}  // namespace flowslide::mpm
