@@ -1,4 +1,5 @@
 #pragma once
+#include "core/unroll.hpp"
 #include "mpm/basis.hpp"
 #include "mpm/local_grid.hpp"
 #include "mpm/points.hpp"
@@ -34,59 +35,79 @@ void gather_tile(Points<Dim>& p, const Tile<Dim>& tile, const Grid<Dim>& grid, d
   std::array<double, Dim> corner;
   for (int d = 0; d < Dim; ++d) corner[d] = tile.block[d] * B - 1.0;
 
+  // Plain pointers, so that the compiler need not fear that a store moves an array.
+  const std::int32_t first = tile.first, count = tile.last - tile.first;
+  double *px[Dim], *pv[Dim], *pc[Dim * Dim], *pl[Dim * Dim];
+  for (int d = 0; d < Dim; ++d) {
+    px[d] = p.x[d].data() + first;
+    pv[d] = p.v[d].data() + first;
+  }
+  for (int k = 0; k < Dim * Dim; ++k) {
+    pc[k] = p.c[k].data() + first;
+    pl[k] = scratch.gradient[k].data();
+  }
 #pragma omp simd
-  for (std::int32_t q = tile.first; q < tile.last; ++q) {
+  for (std::int32_t q = 0; q < count; ++q) {
     double w[Dim][N], g[Dim][N], r[Dim];
-    int at = 0, stride = 1;
-    for (int d = 0; d < Dim; ++d) {
-      const double x = (p.x[d][q] - grid.origin[d]) * inverse - corner[d];
-      const double base = Basis::base(x);
-      Basis::evaluate(x - base, w[d], g[d]);
-      r[d] = base - x;
-      at += static_cast<int>(base) * stride;
-      stride *= W;
-    }
-    double u[Dim] = {}, moment[Dim][Dim] = {}, gradient[Dim][Dim] = {};
-    for (int d = 0; d < Dim; ++d) {
-      for (int l = 0; l < (Dim == 3 ? N : 1); ++l) {
-        double s0 = 0, sx = 0, sgx = 0, sy = 0, sgy = 0;
-        for (int j = 0; j < N; ++j) {
+    int at = 0;
+    unroll<Dim>([&](auto d) {
+      const double position = (px[d][q] - grid.origin[d]) * inverse - corner[d];
+      const double base = Basis::base(position);
+      Basis::evaluate(position - base, w[d], g[d]);
+      r[d] = base - position;
+      at += static_cast<int>(base) * power<d>(W);
+    });
+    double u[Dim], moment[Dim][Dim], gradient[Dim][Dim];
+    unroll<Dim>([&](auto d) {
+      double s_u = 0, s_x = 0, s_y = 0, s_z = 0, g_x = 0, g_y = 0, g_z = 0;
+      unroll<(Dim == 3 ? N : 1)>([&](auto l) {
+        double t_u = 0, t_x = 0, t_y = 0, t_gx = 0, t_gy = 0;
+        unroll<N>([&](auto j) {
           double a = 0, ax = 0, ag = 0;
-          for (int i = 0; i < N; ++i) {
-            const double vi = v[d][at + i + W * j + (Dim == 3 ? W * W * l : 0)];
+          unroll<N>([&](auto i) {
+            const double vi = v[d][at + (i + W * j + (Dim == 3 ? W * W * l : 0))];
             a += w[0][i] * vi;
-            ax += w[0][i] * i * vi;
+            ax += (w[0][i] * i) * vi;
             ag += g[0][i] * vi;
-          }
-          s0 += w[1][j] * a;
-          sx += w[1][j] * ax;
-          sgx += w[1][j] * ag;
-          sy += w[1][j] * j * a;
-          sgy += g[1][j] * a;
-        }
+          });
+          t_u += w[1][j] * a;
+          t_x += w[1][j] * ax;
+          t_gx += w[1][j] * ag;
+          t_y += (w[1][j] * j) * a;
+          t_gy += g[1][j] * a;
+        });
         const double wz = Dim == 3 ? w[Dim - 1][l] : 1.0;
-        u[d] += wz * s0;
-        moment[d][0] += wz * sx;
-        moment[d][1] += wz * sy;
-        gradient[d][0] += wz * sgx;
-        gradient[d][1] += wz * sgy;
+        s_u += wz * t_u;
+        s_x += wz * t_x;
+        s_y += wz * t_y;
+        g_x += wz * t_gx;
+        g_y += wz * t_gy;
         if constexpr (Dim == 3) {
-          moment[d][2] += wz * l * s0;
-          gradient[d][2] += g[2][l] * s0;
+          s_z += (wz * l) * t_u;
+          g_z += g[Dim - 1][l] * t_u;
         }
+      });
+      u[d] = s_u;
+      moment[d][0] = s_x;
+      moment[d][1] = s_y;
+      gradient[d][0] = g_x * inverse;
+      gradient[d][1] = g_y * inverse;
+      if constexpr (Dim == 3) {
+        moment[d][2] = s_z;
+        gradient[d][2] = g_z * inverse;
       }
-    }
-    for (int d = 0; d < Dim; ++d) {
-      for (int e = 0; e < Dim; ++e) {
-        scratch.gradient[Dim * d + e][q - tile.first] = gradient[d][e] * inverse;
+    });
+    unroll<Dim>([&](auto d) {
+      unroll<Dim>([&](auto e) {
+        pl[Dim * d + e][q] = gradient[d][e];
         // sum w v (x_i - x_p) = h (moment + r u)
-        p.c[Dim * d + e][q] = kTransfer == Transfer::tpic
-                                  ? gradient[d][e] * inverse
+        pc[Dim * d + e][q] = kTransfer == Transfer::tpic
+                                  ? gradient[d][e]
                                   : affine * h * (moment[d][e] + r[e] * u[d]);
-      }
-      p.v[d][q] = u[d];
-      p.x[d][q] += dt * u[d];
-    }
+      });
+      pv[d][q] = u[d];
+      px[d][q] += dt * u[d];
+    });
   }
 }
 

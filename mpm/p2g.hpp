@@ -1,4 +1,5 @@
 #pragma once
+#include "core/unroll.hpp"
 #include "mpm/basis.hpp"
 #include "mpm/local_grid.hpp"
 #include "mpm/points.hpp"
@@ -41,20 +42,19 @@ void scatter_tile(const Points<Dim>& p, const Tile<Dim>& tile, const double* mea
     const int count = std::min<std::int32_t>(kBatch, tile.last - first);
 #pragma omp simd
     for (int k = 0; k < count; ++k) {
-      int at = 0, stride = 1;
-      for (int d = 0; d < Dim; ++d) {
+      int at = 0;
+      unroll<Dim>([&](auto d) {
         const double x = (p.x[d][first + k] - grid.origin[d]) * inverse - corner[d];
         const double base = Basis::base(x);
         double wk[N], gk[N];
         Basis::evaluate(x - base, wk, gk);
-        for (int i = 0; i < N; ++i) {
+        unroll<N>([&](auto i) {
           w[d][i][k] = wk[i];
           g[d][i][k] = gk[i] * inverse;
-        }
+        });
         rel[d][k] = (base - x) * h;
-        at += static_cast<int>(base) * stride;
-        stride *= W;
-      }
+        at += static_cast<int>(base) * power<d>(W);
+      });
       node[k] = at;
     }
     for (int k = 0; k < count; ++k) {

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/unroll.hpp"
 #include "mpm/basis.hpp"
 #include "mpm/grid.hpp"
 #include "mpm/points.hpp"
@@ -28,12 +29,11 @@ void find_spans(const Points<Dim>& p, const Tile<Dim>& tile, const Grid<Dim>& gr
   const double inverse = 1.0 / grid.h;
 #pragma omp simd
   for (std::int32_t q = tile.first; q < tile.last; ++q) {
-    int at = 0, stride = 1;
-    for (int d = 0; d < Dim; ++d) {
+    int at = 0;
+    unroll<Dim>([&](auto d) {
       const double x = (p.x[d][q] - grid.origin[d]) * inverse - (tile.block[d] * B - 1.0);
-      at += static_cast<int>(Basis::base(x)) * stride;
-      stride *= B + 2;
-    }
+      at += static_cast<int>(Basis::base(x)) * power<d>(B + 2);
+    });
     s.span[q - tile.first] = at;
   }
 }
