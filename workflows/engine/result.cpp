@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
+#include <map>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -32,7 +32,7 @@ std::string result_json(const Workflow& workflow, const std::vector<StageOutcome
   for (std::string_view name : kPromised) result[std::string(name)] = nullptr;
 
   Json stages = Json::object();
-  std::set<std::string> found;
+  std::map<std::string, std::string> found_by;  // type of stage, by name of the fact
   double stage_seconds = 0.0;
   for (const auto& [record, decision] : outcomes) {
     stage_seconds += record.seconds;
@@ -46,10 +46,10 @@ std::string result_json(const Workflow& workflow, const std::vector<StageOutcome
                             {"facts", facts}};
     for (const auto& [name, value] : facts.items()) {
       if (std::find(kReserved.begin(), kReserved.end(), name) != kReserved.end()) continue;
-      if (found.insert(name).second)
-        result[name] = value;
-      else if (result[name] != value)
-        result[name] = nullptr;
+      if (value.is_null()) continue;
+      const bool ambiguous = found_by[name] == record.uses && result[name] != value;
+      result[name] = ambiguous ? Json(nullptr) : value;
+      found_by[name] = record.uses;
     }
   }
   result["wall_s"] = stage_seconds + overhead;

@@ -70,7 +70,12 @@ StageRecord run_stage(const WorkflowStage& stage, const Decision& decision,
     std::ofstream(work / kSecondsFile) << before + seconds_since(start) << '\n';
     written = Clock::now();
   };
-  RunContext context{.folder = work, .threads = options.threads, .progress = {}};
+  RunContext context{.folder = work,
+                     .threads = options.threads,
+                     .progress = {},
+                     .provenance = {{"program", program_version()}, {"stage key", decision.key}}};
+  for (const auto& [port, hash] : inputs)
+    context.provenance.emplace_back("sha256 of " + port, hash);
   context.progress.stop_requested = options.stop_requested;
   context.progress.report = [&](double fraction, std::string_view text) {
     events.progress(stage.name, fraction, text);
@@ -148,6 +153,12 @@ void run_stages(const Workflow& workflow, const RunOptions& options, const RunEv
           fmt::format("stopped before stage {}; the same command continues there.", stage.name));
     const auto inputs = input_hashes(stage, results);
     Decision decision = decide(options.folder, stage, inputs, previous_record(before, stage.name));
+    const bool redo =
+        std::find(options.redo.begin(), options.redo.end(), stage.name) != options.redo.end();
+    if (redo && decision.action == Action::reuse) {
+      decision.action = Action::run;
+      decision.why = "asked for";
+    }
     events.decided(stage.name, decision);
     if (decision.action != Action::reuse) {
       const auto stage_start = Clock::now();

@@ -16,6 +16,7 @@ struct RunOptions {
   int threads = 1;
   /// Set by a signal handler: the running stage writes a checkpoint and the run ends.
   const std::atomic<bool>* stop_requested = nullptr;
+  std::vector<std::string> redo = {};  ///< stages that run even if they are up to date
 };
 
 /// What a run tells its caller.
@@ -44,8 +45,9 @@ struct PlanLine {
 std::vector<PlanLine> plan_workflow(const Workflow& workflow, const std::filesystem::path& folder);
 
 /// Text of DIR/result.json: what the stages found, in SI units, each number under its own name at
-/// the top, null where no stage of the workflow finds it or two stages differ. `overhead` is the
-/// wall time of this call outside stages [s].
+/// the top. Where stages of different types find the same, the later one counts; where two of the
+/// same type differ, or nobody finds it, the number is null. `overhead` is the wall time of this
+/// call outside stages [s].
 struct StageOutcome {
   StageRecord record;
   Decision decision;

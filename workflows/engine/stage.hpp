@@ -1,4 +1,5 @@
 #pragma once
+#include "config/manual.hpp"
 #include "config/schema.hpp"
 #include "config/yaml.hpp"
 #include "core/progress.hpp"
@@ -11,6 +12,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace flowslide {
@@ -20,6 +22,8 @@ struct RunContext {
   std::filesystem::path folder;  ///< the stage's own: outputs and checkpoints go here
   int threads = 1;
   Progress progress;
+  /// What identifies the run, as (name, text): workflow, program, hashes of the inputs.
+  std::vector<std::pair<std::string, std::string>> provenance;
 };
 
 struct StageResult {
@@ -91,8 +95,8 @@ struct StageType {
   /// Reads and checks the settings. `with` is absent if the user gave none; `stage` is for
   /// messages.
   std::function<PreparedStage(const std::optional<YamlNode>& with, const YamlNode& stage)> prepare;
-  std::function<std::string()> json_schema;  ///< of the settings
-  std::function<std::string()> manual;       ///< Markdown table of the settings
+  std::function<std::string()> json_schema;                   ///< of the settings
+  std::function<std::string(std::string_view title)> manual;  ///< Markdown page of the settings
 };
 
 namespace detail {
@@ -126,8 +130,8 @@ StageType stage_type() {
                  .inputs = detail::list_ports<typename S::Inputs>(),
                  .outputs = detail::list_ports<typename S::Outputs>(),
                  .prepare = {},
-                 .json_schema = {},
-                 .manual = {}};
+                 .json_schema = json_schema<typename S::Config>,
+                 .manual = manual_page<typename S::Config>};
   type.prepare = [](const std::optional<YamlNode>& with, const YamlNode& stage) {
     using Config = typename S::Config;
     const Config config = read_settings<Config>(with, stage.path() + ".with");

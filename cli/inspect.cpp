@@ -1,0 +1,203 @@
+#include "cli/command.hpp"
+#include "importers/recorder_text.hpp"
+#include "model/field_store.hpp"
+#include "model/history.hpp"
+#include "model/mpm_history.hpp"
+#include "model/particle_set.hpp"
+#include "model/zone.hpp"
+#include "workflows/engine/graph.hpp"
+#include "workflows/engine/record.hpp"
+#include "workflows/stages/stage_list.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace fs = std::filesystem;
+
+namespace flowslide::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json inspect_history(const fs::path& path) {
+  const FemHistory history(path);
+  const std::vector<double>& times = history.times();
+  Json j = {{"nodes", history.mesh().num_nodes()},
+            {"elements", history.mesh().num_elements()},
+            {"frames", times.size()}};
+  if (!times.empty()) j["time_s"] = {times.front(), times.back()};
+  j["program"] = history.origin().program;
+  j["sigma_zz"] = history.origin().sigma_zz_rule;
+  j["problems"] = history.origin().notes;
+  return j;
+}
+
+Json inspect_zone(const fs::path& path) {
+  const LiquefactionZone zone = read_zone(path);
+  Json depths = Json::object();
+  for (std::size_t i = 0; i < zone.window_names.size(); ++i)
+    depths[zone.window_names[i]] = zone.window_depth_max[i];
+  return {{"elements", zone.liquefied.size()},
+          {"liquefied_elements", std::count(zone.liquefied.begin(), zone.liquefied.end(), 1)},
+          {"transfer_time_s", zone.transfer_time},
+          {"transfer_reason", zone.transfer_reason},
+          {"depth_m", depths},
+          {"problems", zone.notes}};
+}
+
+Json inspect_particles(const fs::path& path) {
+  const ParticleSet particles = read_particles(path);
+  Json j = {{"particles", particles.size()}, {"dimension", particles.dim}};
+  double mass = 0.0, volume = 0.0;
+  for (double m : particles.mass) mass += m;
+  for (double v : particles.volume) volume += v;
+  j["mass_kg"] = mass;
+  j["volume_m3"] = volume;
+  for (const MaterialSpec& material : particles.materials) j["materials"].push_back(material.name);
+  for (const auto& [name, values] : particles.history) j["quantities"].push_back(name);
+  j["problems"] = Json::array();
+  return j;
+}
+
+Json inspect_flow(const fs::path& path) {
+  const MpmHistory history(path);
+  Json j = {{"particles", history.initial().size()},
+            {"frames", history.num_frames()},
+            {"samples", history.samples().size()}};
+  if (!history.samples().empty()) {
+    const MpmSample& last = history.samples().back();
+    j["time_s"] = {history.samples().front().time, last.time};
+    j["runout_m"] = last.runout;
+    j["max_speed_m_s"] = last.max_speed;
+    j["mass_error"] = last.mass_error;
+    j["energy_error"] = last.energy_error;
+  }
+  j["problems"] = Json::array();
+  return j;
+}
+
+Json inspect_store(const fs::path& path) {
+  const std::string kind = stored_kind(path);
+  Json j = {{"kind", kind}};
+  if (kind == "fem_history")
+    j.update(inspect_history(path));
+  else if (kind == "zone")
+    j.update(inspect_zone(path));
+  else if (kind == "particles")
+    j.update(inspect_particles(path));
+  else if (kind == "mpm_history")
+    j.update(inspect_flow(path));
+  else
+    throw InputError(fmt::format(
+        "{}: an HDF5 file, but of no kind that this program writes ('{}').", path.string(), kind));
+  return j;
+}
+
+Json inspect_run(const fs::path& folder) {
+  const auto lock = read_lock(folder);
+  if (!lock)
+    throw InputError(
+        fmt::format("{}: a folder without run.lock (no run of flowslide). Name one of "
+                    "its files.",
+                    folder.string()));
+  Json j = {{"kind", "run"},
+            {"workflow", lock->workflow},
+            {"file", lock->file},
+            {"complete", lock->complete && fs::exists(folder / "result.json")},
+            {"stages", Json::object()},
+            {"problems", Json::array()}};
+  for (const auto& [name, record] : lock->stages) {
+    j["stages"][name] = {{"uses", record.uses}, {"seconds", record.seconds}, {"key", record.key}};
+    const fs::path result = folder / "stages" / name / record.key.substr(0, 16);
+    if (const auto harm = damage(record, result)) j["problems"].push_back(name + ": " + *harm);
+  }
+  std::ifstream in(folder / "result.json");
+  if (const Json result = Json::parse(in, nullptr, false); result.is_object())
+    for (const auto& [key, value] : result.items())
+      if (value.is_number() && key != "schema") j["result"][key] = value;
+  return j;
+}
+
+Json inspect_workflow(const fs::path& path) {
+  const YamlNode document = load_yaml(path);
+  Json j = {{"kind", "workflow"}, {"problems", Json::array()}};
+  try {
+    const Workflow workflow = load_workflow(path, {}, all_stages());
+    j["name"] = workflow.name;
+    for (const WorkflowStage& stage : workflow.stages) j["stages"][stage.name] = stage.type.name;
+  } catch (const Error& e) {
+    j["problems"].push_back(e.what());
+  }
+  return j;
+}
+
+Json inspect_recorder(const fs::path& path) {
+  const RecorderSummary s = summarize_recorder(path);
+  Json j = {{"kind", "recorder"}, {"rows", s.rows}, {"columns", s.columns}};
+  if (s.has_time) {
+    j["time"] = {s.time_first, s.time_last};
+    j["time_step"] = {s.step_min, s.step_max};
+    j["stages"] = s.stages;
+  }
+  j["values"] = {s.value_min, s.value_max};
+  j["notes"] = s.notes;
+  j["problems"] = s.problems;
+  return j;
+}
+
+Json inspect(const fs::path& path) {
+  if (!fs::exists(path)) throw FileError(fmt::format("{}: there is no such file.", path.string()));
+  if (fs::is_directory(path)) return inspect_run(path);
+  std::array<char, 8> head{};
+  std::ifstream(path, std::ios::binary).read(head.data(), head.size());
+  constexpr std::string_view kHdf5 = "\x89HDF\r\n\x1a\n";
+  if (std::string_view(head.data(), head.size()) == kHdf5) return inspect_store(path);
+  if (path.extension() == ".yaml" || path.extension() == ".yml") return inspect_workflow(path);
+  return inspect_recorder(path);
+}
+
+void print(const Json& json, const std::string& indent) {
+  for (const auto& [key, value] : json.items()) {
+    if (value.is_object()) {
+      fmt::print("{}{}\n", indent, key);
+      print(value, indent + "  ");
+    } else if (value.is_array() && !value.empty() && value[0].is_string()) {
+      fmt::print("{}{}\n", indent, key);
+      for (const Json& line : value) fmt::print("{}  {}\n", indent, line.get<std::string>());
+    } else if (value.is_string()) {
+      fmt::print("{}{:<24} {}\n", indent, key, value.get<std::string>());
+    } else if (!value.is_array() || !value.empty()) {
+      fmt::print("{}{:<24} {}\n", indent, key, value.dump());
+    }
+  }
+}
+
+}  // namespace
+
+void add_inspect(CLI::App& app, Command& action) {
+  auto path = std::make_shared<std::string>();
+  auto json = std::make_shared<bool>(false);
+  CLI::App* command = app.add_subcommand("inspect", "Say what a file or run folder is");
+  command->add_option("path", *path, "file or folder")->required();
+  command->add_flag("--json", *json, "as JSON");
+  command->callback([path, json, &action] {
+    action = [path, json] {
+      Json result = {{"path", *path}};
+      result.update(inspect(*path));
+      if (*json)
+        fmt::print("{}\n", result.dump(2, ' ', false, Json::error_handler_t::replace));
+      else
+        print(result, "");
+      return 0;
+    };
+  });
+}
+
+}  // namespace flowslide::cli

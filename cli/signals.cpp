@@ -1,0 +1,24 @@
+#include "cli/signals.hpp"
+
+#include <csignal>
+
+namespace flowslide::cli {
+namespace {
+
+std::atomic<bool> stop = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only use such");
+
+extern "C" void on_signal(int) { stop.store(true); }
+
+}  // namespace
+
+const std::atomic<bool>& stop_on_signal() {
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  return stop;
+}
+
+}  // namespace flowslide::cli

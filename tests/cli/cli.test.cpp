@@ -1,0 +1,147 @@
+#include "tests/support/scratch.hpp"
+
+#include <sys/wait.h>
+
+#include <catch2/catch.hpp>
+
+using namespace flowslide;
+using Catch::Contains;
+
+namespace {
+
+struct Outcome {
+  int code = -1;  ///< 128 + n if signal n ended it
+  std::string out, err;
+};
+
+Outcome call(const Scratch& scratch, const std::string& arguments) {
+  const std::string command = "cd '" + scratch.path().string() + "' && " FLOWSLIDE_BINARY " " +
+                              arguments + " >out.txt 2>err.txt";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
+          read_text_file(scratch / "out.txt"), read_text_file(scratch / "err.txt")};
+}
+
+/// One element of 1 m x 1 m at rest: enough to import.
+void write_model(const Scratch& scratch) {
+  scratch.write("nodes.txt", "1 0 0\n2 1 0\n3 1 1\n4 0 1\n");
+  scratch.write("elements.txt", "1 1 2 3 4 1\n");
+  scratch.write("stress.out", "0.1 -10 -20 0\n");
+  scratch.write("pressure.out", "0.1 5 5 0 0\n");
+}
+
+std::string shake(const std::string& units = "{length: m, time: s, stress: kPa}") {
+  return "  shake:\n    uses: import.opensees\n    with:\n"
+         "      mesh: {nodes: nodes.txt, elements: elements.txt}\n"
+         "      units: " +
+         units +
+         "\n"
+         "      gravity: {stress: stress.out, pore_pressure: pressure.out}\n"
+         "      sigma_zz: {rule: mean}\n";
+}
+
+Outcome run(const Scratch& scratch, const std::string& stages) {
+  scratch.write("w.yaml", "schema: 1\nname: w\nstages:\n" + stages);
+  return call(scratch, "run w.yaml --out out");
+}
+
+/// Nothing that looks like a result.
+void check_nothing_final(const Scratch& scratch) {
+  CHECK_FALSE(std::filesystem::exists(scratch / "out/result.json"));
+  if (!std::filesystem::exists(scratch / "out")) return;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(scratch / "out"))
+    if (entry.is_directory() && entry.path().parent_path().parent_path().filename() == "stages")
+      CHECK(entry.path().extension() == ".partial");
+}
+
+}  // namespace
+
+TEST_CASE("the version is that of the project", "[cli]") {
+  const Scratch scratch;
+  const Outcome o = call(scratch, "--version");
+  CHECK(o.code == 0);
+  CHECK_THAT(o.out, Catch::StartsWith("flowslide 0."));
+}
+
+TEST_CASE("wrong use of the command line is wrong input", "[cli]") {
+  const Scratch scratch;
+  for (const char* arguments : {"", "rum x.yaml", "run", "run x.yaml --threads 0", "run a b c"}) {
+    CAPTURE(arguments);
+    const Outcome o = call(scratch, arguments);
+    CHECK(o.code == 2);
+    CHECK_THAT(o.err, Catch::StartsWith("error: "));
+  }
+}
+
+TEST_CASE("wrong workflows end with the exit code and message of the contract", "[cli]") {
+  const Scratch scratch;
+  write_model(scratch);
+  struct Case {
+    const char* what;
+    std::string stages;
+    int code;
+    const char* message;
+  };
+  const std::vector<Case> cases{
+      {"unknown stage", "  s: {uses: import.opensee}\n", 2, "Did you mean 'import.opensees'"},
+      {"unknown key", shake() + "      gravty: 1\n", 2, "gravty"},
+      {"wrong unit", shake("{length: m, time: s, stress: lb}"), 2, "w.yaml:"},
+      {"missing unit", shake() + "  z: {uses: mpm.run, with: {cell: 1.25}}\n", 2, "no unit"},
+      {"cycle",
+       shake() + "  a: {uses: transfer.map, in: {history: shake.history, zone: a.particles}}\n", 2,
+       "is of kind particles"},
+      {"not connected", shake() + "  z: {uses: transfer.zone}\n", 2,
+       "Write 'in: {history: shake.history}'"}};
+  for (const Case& c : cases) {
+    CAPTURE(c.what);
+    const Outcome o = run(scratch, c.stages);
+    CHECK(o.code == c.code);
+    CHECK_THAT(o.err, Catch::StartsWith("error: w.yaml:") && Contains(c.message));
+    check_nothing_final(scratch);
+    CHECK(call(scratch, "check w.yaml").code == c.code);
+  }
+}
+
+TEST_CASE("missing files have their own exit code", "[cli]") {
+  const Scratch scratch;
+  CHECK(call(scratch, "run none.yaml").code == 4);
+  CHECK(call(scratch, "inspect none.h5").code == 4);
+  write_model(scratch);
+  std::filesystem::remove(scratch / "stress.out");
+  const Outcome o = run(scratch, shake());
+  CHECK(o.code == 4);
+  CHECK_THAT(o.err, Contains("stress.out"));
+  check_nothing_final(scratch);
+}
+
+TEST_CASE("a small import runs, is then up to date, and can be inspected", "[cli]") {
+  const Scratch scratch;
+  write_model(scratch);
+  Outcome o = run(scratch, shake());
+  INFO(o.err);
+  REQUIRE(o.code == 0);
+  CHECK(std::filesystem::exists(scratch / "out/result.json"));
+  o = run(scratch, shake());
+  CHECK_THAT(o.out, Contains("up to date"));
+  CHECK_THAT(call(scratch, "inspect out").out, Contains("import.opensees"));
+  CHECK_THAT(call(scratch, "inspect stress.out --json").out, Contains("\"columns\": 4"));
+  o = call(scratch,
+           "run w.yaml --out out --dry-run --set stages.shake.with.sigma_zz.rule=elastic "
+           "--set stages.shake.with.sigma_zz.nu=0.3");
+  INFO(o.err);
+  CHECK(o.code == 0);
+  CHECK_THAT(o.out, Contains("settings changed"));
+
+  SECTION("a torn recorder is refused and withdraws the old result") {
+    scratch.write("stress.out", "0.1 -10 -20 0\n0.2 -10 nonsense 0\n");
+    o = run(scratch, shake());
+    CHECK(o.code == 2);
+    CHECK_THAT(o.err, Contains("stress.out:2"));
+    CHECK_FALSE(std::filesystem::exists(scratch / "out/result.json"));
+  }
+  SECTION("so does a workflow that is refused") {
+    o = run(scratch, shake() + "  z: {uses: nothing}\n");
+    CHECK(o.code == 2);
+    CHECK_FALSE(std::filesystem::exists(scratch / "out/result.json"));
+  }
+}

@@ -1,0 +1,55 @@
+#include "mpm/flow.hpp"
+
+#include "workflows/stages/stage_list.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace flowslide {
+namespace {
+
+/// A kill just after the history was finished leaves both it and the last checkpoint; continuing
+/// from that needs the history under the name it had before.
+void reopen_finished_history(const FlowPaths& paths) {
+  if (std::filesystem::exists(paths.history) && std::filesystem::exists(paths.checkpoint))
+    std::filesystem::rename(paths.history, paths.history.string() + ".partial");
+}
+
+struct FlowStage {
+  static constexpr std::string_view name = "mpm.run";
+  static constexpr std::string_view doc = "The runout, with the material point method.";
+  static constexpr int version = 1;
+  static constexpr bool checkpoints = true;
+  using Config = FlowConfig;
+  struct Inputs {
+    Artifact<ParticleSet> particles;
+    void visit(auto&& port) { port("particles", particles); }
+  };
+  struct Outputs {
+    Artifact<MpmHistory> history{"mpm.h5"};
+    void visit(auto&& port) { port("history", history); }
+  };
+  static void check(const Config& config) { flowslide::check(config); }
+  static StageResult run(const RunContext& context, const Config& config, const Inputs& in,
+                         const Outputs& out) {
+    const FlowPaths paths{out.history.path, context.folder / "checkpoint"};
+    reopen_finished_history(paths);
+    const FlowFacts f = run_flow(read_particles(in.particles.path), config, paths, context.threads,
+                                 context.progress);
+    const double rate = f.step_seconds > 0.0 ? f.updates_this_call / f.step_seconds : 0.0;
+    const nlohmann::ordered_json facts = {{"runout_m", f.last.runout},
+                                          {"mass_error", f.last.mass_error},
+                                          {"energy_error", f.last.energy_error},
+                                          {"flow_end_s", f.end_time},
+                                          {"flow_at_rest", f.at_rest},
+                                          {"flow_steps", f.steps},
+                                          {"flow_point_updates", f.point_updates},
+                                          {"flow_point_updates_per_s", rate}};
+    return {.facts = facts.dump(), .publish = {}};
+  }
+};
+
+}  // namespace
+
+StageType flow_stage() { return stage_type<FlowStage>(); }
+
+}  // namespace flowslide

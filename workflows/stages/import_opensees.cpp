@@ -1,0 +1,38 @@
+#include "importers/opensees.hpp"
+#include "workflows/stages/stage_list.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace flowslide {
+namespace {
+
+struct ImportOpenSees {
+  static constexpr std::string_view name = "import.opensees";
+  static constexpr std::string_view doc = "Reads mesh and recorders of an OpenSees model.";
+  static constexpr int version = 1;
+  static constexpr bool checkpoints = false;
+  using Config = OpenSeesConfig;
+  struct Inputs {
+    void visit(auto&&) {}
+  };
+  struct Outputs {
+    Artifact<FemHistory> history{"history.h5"};
+    void visit(auto&& port) { port("history", history); }
+  };
+  static void check(const Config& config) { flowslide::check(config); }
+  static StageResult run(const RunContext& context, const Config& config, const Inputs&,
+                         const Outputs& out) {
+    const ImportReport report = import_opensees(config, out.history.path, context.progress);
+    const nlohmann::ordered_json facts = {{"fem_nodes", report.num_nodes},
+                                          {"fem_elements", report.num_elements},
+                                          {"fem_frames", report.num_frames},
+                                          {"import_warnings", report.warnings}};
+    return {.facts = facts.dump(), .publish = {}};
+  }
+};
+
+}  // namespace
+
+StageType import_opensees_stage() { return stage_type<ImportOpenSees>(); }
+
+}  // namespace flowslide

@@ -1,0 +1,17 @@
+#pragma once
+#include "workflows/engine/stage.hpp"
+
+#include <vector>
+
+/// Every stage that `uses:` may name. A new stage is one file here and one line in stage_list.cpp.
+namespace flowslide {
+
+StageType import_opensees_stage();
+StageType zone_stage();
+StageType map_stage();
+StageType flow_stage();
+StageType report_stage();
+
+std::vector<StageType> all_stages();
+
+}  // namespace flowslide
