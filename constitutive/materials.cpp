@@ -5,7 +5,8 @@
 namespace flowslide {
 namespace {
 
-/// Walks a law's parameters, which are plain numbers, and hands each to `f(key, value, range)`.
+/// Walks a law's parameters, which are plain numbers, and hands each to
+/// `f(key, value, range, needed)`.
 /// A law with another kind of parameter does not compile against ParticleSet and is refused.
 template <class F>
 class NumberVisitor final : public FieldVisitor {
@@ -13,12 +14,12 @@ class NumberVisitor final : public FieldVisitor {
   explicit NumberVisitor(F f) : f_(std::move(f)) {}
   void quantity(std::string_view key, double& value, Dim, Range range, std::string_view) override {
     std::optional<double> x = is_set(value) ? std::optional(value) : std::nullopt;
-    f_(key, x, range);
+    f_(key, x, range, true);
     value = x.value_or(kUnset);
   }
   void quantity(std::string_view key, std::optional<double>& value, Dim, Range range,
                 std::string_view) override {
-    f_(key, value, range);
+    f_(key, value, range, false);
   }
   void integer(std::string_view, int&, Range, std::string_view) override { refuse(); }
   void flag(std::string_view, bool&, std::string_view) override { refuse(); }
@@ -78,17 +79,17 @@ bool read_law(std::string_view law, const std::map<std::string, double>& paramet
   if (law != M::name) return false;
   typename M::Params p;
   std::set<std::string> known;
-  for_each_number(p, [&](std::string_view key, std::optional<double>& value, const Range& range) {
+  for_each_number(p, [&](std::string_view key, std::optional<double>& value, const Range& range,
+                         bool needed) {
     known.emplace(key);
     const auto found = parameters.find(std::string(key));
     if (found != parameters.end()) value = found->second;
+    validate(value || !needed, "{}: {} is missing (the law cannot do without) give it", law, key);
     validate(!value || range.contains(*value), "{}: {} = {} is out of its range", law, key,
              value.value_or(kUnset));
   });
   for (const auto& [key, value] : parameters)
     validate(known.count(key) == 1, "{} has no parameter '{}'", law, key);
-  validate(is_set(p.youngs_modulus) && is_set(p.poisson_ratio), "{}: elastic constants are missing",
-           law);
   check_relations(p);
   result = Material<M>{p};
   return true;
@@ -150,9 +151,10 @@ LawParameters to_parameters(const AnyMaterial& material) {
       []<class M>(const Material<M>& m) {
         LawParameters r{std::string(M::name), {}};
         typename M::Params p = m.params;
-        for_each_number(p, [&](std::string_view key, std::optional<double>& value, const Range&) {
-          if (value) r.parameters.emplace(key, *value);
-        });
+        for_each_number(
+            p, [&](std::string_view key, std::optional<double>& value, const Range&, bool) {
+              if (value) r.parameters.emplace(key, *value);
+            });
         return r;
       },
       material);
