@@ -3,20 +3,17 @@
 
 #include <array>
 #include <concepts>
-#include <cstdint>
 #include <string_view>
 #include <type_traits>
 
 /// What a constitutive law must be: named parameters, a small state and a pure function.
 namespace flowslide {
 
-enum class Outcome : std::uint8_t { elastic, plastic };
-
-template <class State, int Dim>
+/// `T` is double, or Pack where the law treats eight points at once.
+template <class State, int Dim, class T = double>
 struct StressUpdate {
-  Stress<Dim> stress;
+  Stress<Dim, T> stress;
   State state;
-  Outcome outcome;
 };
 
 /// Isotropic elasticity as every law here uses it.
@@ -31,21 +28,21 @@ struct Elasticity {
 };
 
 /// Hooke's law on increments.
-template <int Dim>
-constexpr Stress<Dim> hooke(const Elasticity& e, const Stress<Dim>& s,
-                            const StrainIncrement<Dim>& de) {
+template <int Dim, class T>
+constexpr Stress<Dim, T> hooke(const Elasticity& e, const Stress<Dim, T>& s,
+                               const StrainIncrement<Dim, T>& de) {
   const double lambda = e.bulk - 2.0 / 3.0 * e.shear;
-  const double volumetric = lambda * (de[0] + de[1] + de[2]);
-  Stress<Dim> r = s;
-  for (int i = 0; i < 3; ++i) r[i] += volumetric + 2.0 * e.shear * de[i];
+  const T volumetric = lambda * (de[0] + de[1] + de[2]);
+  Stress<Dim, T> r = s;
+  for (int i = 0; i < 3; ++i) r[i] += volumetric + (2.0 * e.shear) * de[i];
   for (int i = 3; i < kVoigt<Dim>; ++i) r[i] += e.shear * de[i];
   return r;
 }
 
-/// A law M. `State` is an aggregate of doubles, in the order of `state_names`, so that solvers can
-/// keep it as plain arrays. `Constants` are numbers derived once from the parameters: what the
-/// update needs, without a transcendental function per point. `softening_scale` is cell size over
-/// reference length (docs/theory/softening.md).
+/// A law M. `StateOf<T>` is an aggregate of numbers T in the order of `state_names`, so that solvers
+/// can keep it as plain arrays; State is StateOf<double>. `Constants` are numbers derived once from
+/// the parameters: what the update needs, without a transcendental function per point.
+/// `softening_scale` is cell size over reference length (docs/theory/softening.md).
 template <class M, int Dim>
 concept ConstitutiveModel = std::is_aggregate_v<typename M::Params> &&
                                 std::is_trivially_copyable_v<typename M::State> &&

@@ -11,7 +11,9 @@ struct LinearElastic {
     double youngs_modulus = kUnset;  ///< E [Pa]
     double poisson_ratio = kUnset;   ///< nu [-]
   };
-  struct State {};
+  template <class T>
+  struct StateOf {};
+  using State = StateOf<double>;
   static constexpr std::array<std::string_view, 0> state_names{};
   struct Constants {
     Elasticity elastic;
@@ -25,11 +27,11 @@ struct LinearElastic {
   }
   static State initial_state(const Params&) { return {}; }
 
-  template <int Dim>
-  [[nodiscard]] static StressUpdate<State, Dim> update(const Constants& c, const State&,
-                                                       const Stress<Dim>& sigma,
-                                                       const StrainIncrement<Dim>& de) noexcept {
-    return {hooke(c.elastic, sigma, de), {}, Outcome::elastic};
+  template <int Dim, class T>
+  [[nodiscard]] static StressUpdate<StateOf<T>, Dim, T> update(
+      const Constants& c, const StateOf<T>&, const Stress<Dim, T>& sigma,
+      const StrainIncrement<Dim, T>& de) noexcept {
+    return {hooke(c.elastic, sigma, de), {}};
   }
   static double present_strength(const Constants&, const State&) noexcept { return kUnset; }
 };

@@ -26,11 +26,13 @@ struct MohrCoulomb {
     double peak_strain = 0.0;                       ///< eps_q^p where softening starts [-]
     double residual_strain = 1.0;                   ///< eps_q^p where it ends [-]
   };
-  struct State {
-    double plastic_strain = 0.0;  ///< accumulated eps_q^p [-]
-    double gap = 0.0;             ///< opened volumetric strain [-]
-    double pore_pressure = 0.0;   ///< u [Pa], constant; effective = total + u
+  template <class T>
+  struct StateOf {
+    T plastic_strain = 0.0;  ///< accumulated eps_q^p [-]
+    T gap = 0.0;             ///< opened volumetric strain [-]
+    T pore_pressure = 0.0;   ///< u [Pa], constant; effective = total + u
   };
+  using State = StateOf<double>;
   static constexpr std::array<std::string_view, 3> state_names{"plastic_strain", "gap",
                                                                "pore_pressure"};
   struct Constants {
@@ -58,68 +60,68 @@ struct MohrCoulomb {
   }
   static State initial_state(const Params&) { return {}; }
 
-  static double present_strength(const Constants& c, const State& s) noexcept {
+  template <class T>
+  static T present_strength(const Constants& c, const StateOf<T>& s) noexcept {
     return c.cohesion + c.cohesion_change * c.softening.degree(s.plastic_strain);
   }
 
   /// The surface at the present state.
-  static MohrCoulombSurface surface(const Constants& c, const State& s) noexcept {
-    const double degree = c.softening.degree(s.plastic_strain);
-    const double phi = c.friction + c.friction_change * degree;
-    const double cohesion = c.cohesion + c.cohesion_change * degree;
-    const double sin_phi = sine(phi);
-    const double cos_phi = std::sqrt(1.0 - sin_phi * sin_phi);
-    const double apex = sin_phi > 1e-6 ? cohesion * cos_phi / sin_phi : cohesion;
-    return {(1.0 + sin_phi) / (1.0 - sin_phi), c.m, 2.0 * cohesion * cos_phi / (1.0 - sin_phi),
-            std::min(c.tension_cutoff, apex)};
+  template <class T>
+  static MohrCoulombSurface<T> surface(const Constants& c, const StateOf<T>& s) noexcept {
+    const T degree = c.softening.degree(s.plastic_strain);
+    const T phi = c.friction + c.friction_change * degree;
+    const T cohesion = c.cohesion + c.cohesion_change * degree;
+    const T sin_phi = sine(phi);
+    const T cos_phi = sqrt(1.0 - sin_phi * sin_phi);
+    const T one_minus = 1.0 - sin_phi;
+    const T apex = select(sin_phi > T(1e-6), cohesion * cos_phi / sin_phi, cohesion);
+    return {(1.0 + sin_phi) / one_minus, c.m, 2.0 * cohesion * cos_phi / one_minus,
+            min(T(c.tension_cutoff), apex)};
   }
 
-  template <int Dim>
-  [[nodiscard]] static StressUpdate<State, Dim> update(const Constants& c, const State& old,
-                                                       const Stress<Dim>& sigma,
-                                                       const StrainIncrement<Dim>& de) noexcept {
+  template <int Dim, class T>
+  [[nodiscard]] static StressUpdate<StateOf<T>, Dim, T> update(
+      const Constants& c, const StateOf<T>& old, const Stress<Dim, T>& sigma,
+      const StrainIncrement<Dim, T>& de) noexcept {
     // (i) elastic predictor in effective stress
-    const double volumetric = de[0] + de[1] + de[2];
-    const GapStep step = close_gap_first(old.gap, volumetric);
-    StrainIncrement<Dim> strain = de;
-    for (int i = 0; i < 3; ++i) strain[i] -= (volumetric - step.volumetric) / 3.0;
-    Stress<Dim> trial = hooke(c.elastic, sigma, strain);
+    const T volumetric = de[0] + de[1] + de[2];
+    const GapStep<T> step = close_gap_first(old.gap, volumetric);
+    StrainIncrement<Dim, T> strain = de;
+    for (int i = 0; i < 3; ++i) strain[i] -= (volumetric - step.volumetric) * (1.0 / 3.0);
+    Stress<Dim, T> trial = hooke(c.elastic, sigma, strain);
     for (int i = 0; i < 3; ++i) trial[i] += old.pore_pressure;
 
     // (ii), (iii) return in principal axes with the strength at the start of the step
-    const MohrCoulombSurface y = surface(c, old);
-    double deviatoric = 0.0, opened = 0.0;
-    Stress<Dim> returned = map_principal(trial, [&](const Sorted3& t) noexcept {
-      const Principal r = return_to_mohr_coulomb(c.elastic, y, {t.hi, t.mid, t.lo});
-      const double d1 = t.hi - r.s1, d2 = t.mid - r.s2, d3 = t.lo - r.s3;
-      const double mean = (d1 + d2 + d3) / 3.0;
-      const double e1 = d1 - mean, e2 = d2 - mean, e3 = d3 - mean;
-      deviatoric = std::sqrt(2.0 / 3.0 * (e1 * e1 + e2 * e2 + e3 * e3)) / (2.0 * c.elastic.shear);
+    const MohrCoulombSurface<T> y = surface(c, old);
+    T deviatoric = 0.0, opened = 0.0;
+    Stress<Dim, T> returned = map_principal(trial, [&](const Sorted3<T>& t) noexcept {
+      const Principal<T> r = return_to_mohr_coulomb(c.elastic, y, Principal<T>{t.hi, t.mid, t.lo});
+      const T d1 = t.hi - r.s1, d2 = t.mid - r.s2, d3 = t.lo - r.s3;
+      const T mean = (d1 + d2 + d3) * (1.0 / 3.0);
+      const T e1 = d1 - mean, e2 = d2 - mean, e3 = d3 - mean;
+      deviatoric =
+          sqrt(2.0 / 3.0 * (e1 * e1 + e2 * e2 + e3 * e3)) * (0.5 / c.elastic.shear);
       // Only what opens at the tension corner closes again; dilation of shear does not.
-      opened = r.s3 >= y.tension ? std::max(0.0, mean) / c.elastic.bulk : 0.0;
-      return Sorted3{r.s1, r.s2, r.s3};
+      opened = select(r.s3 >= y.tension, max(T(0.0), mean) * (1.0 / c.elastic.bulk), T(0.0));
+      return Sorted3<T>{r.s1, r.s2, r.s3};
     });
     for (int i = 0; i < 3; ++i) returned[i] -= old.pore_pressure;
 
-    StressUpdate<State, Dim> r;
+    StressUpdate<StateOf<T>, Dim, T> r;
     r.stress = returned;
     r.state = old;
     r.state.plastic_strain = old.plastic_strain + deviatoric;
     r.state.gap = step.gap + opened;
-    r.outcome = deviatoric > 0.0 || opened > 0.0 ? Outcome::plastic : Outcome::elastic;
     return r;
   }
 
  private:
-  /// sin on [0, 1] to 1e-15 by its Taylor series: the library's would keep loops from vectorising.
-  static double sine(double x) noexcept {
-    const double y = x * x;
-    return x * (1.0 + y * (-1.0 / 6 +
-                           y * (1.0 / 120 + y * (-1.0 / 5040 +
-                                                 y * (1.0 / 362880 +
-                                                      y * (-1.0 / 39916800 +
-                                                           y * (1.0 / 6227020800.0 +
-                                                                y * (-1.0 / 1307674368000.0))))))));
+  /// sin on [0, 1] to 1e-15 by its Taylor series: the library's does not run on eight lanes.
+  template <class T>
+  static T sine(T x) noexcept {
+    const T y = x * x;
+    return x * (1.0 + y * (-1.0 / 6 + y * (1.0 / 120 + y * (-1.0 / 5040 + y * (1.0 / 362880 +
+                y * (-1.0 / 39916800 + y * (1.0 / 6227020800.0 + y * (-1.0 / 1307674368000.0))))))));
   }
 };
 static_assert(ConstitutiveModel<MohrCoulomb, 2> && ConstitutiveModel<MohrCoulomb, 3>);

@@ -8,33 +8,34 @@
 namespace flowslide {
 
 /// Largest, middle and smallest of three without rounding.
+template <class T>
 struct Sorted3 {
-  double hi, mid, lo;
+  T hi, mid, lo;
 };
-[[nodiscard]] inline Sorted3 sort3(double a, double b, double c) noexcept {
-  const double hi_ab = std::max(a, b), lo_ab = std::min(a, b);
-  return {std::max(hi_ab, c), std::max(lo_ab, std::min(hi_ab, c)), std::min(lo_ab, c)};
+template <class T>
+[[nodiscard]] Sorted3<T> sort3(T a, T b, T c) noexcept {
+  const T hi_ab = max(a, b), lo_ab = min(a, b);
+  return {max(hi_ab, c), max(lo_ab, min(hi_ab, c)), min(lo_ab, c)};
 }
 
 /// Plane strain: zz is a principal stress; the in-plane pair from Mohr's circle. `map` takes and
 /// returns {s1, s2, s3} sorted and must keep the order.
-template <class Map>
-[[nodiscard]] Stress<2> map_principal(const Stress<2>& s, Map&& map) noexcept {
-  const double centre = 0.5 * (s[0] + s[1]), half = 0.5 * (s[0] - s[1]);
-  const double radius = std::sqrt(half * half + s[3] * s[3]);
-  const double a = centre + radius, b = centre - radius, z = s[2];
-  const Sorted3 t = sort3(a, b, z);
-  const Sorted3 r = map(t);
-  const bool z_high = z > a, z_low = z < b;
-  const double new_a = z_high ? r.mid : r.hi;
-  const double new_b = z_low ? r.mid : r.lo;
-  const double new_z = z_high ? r.hi : (z_low ? r.lo : r.mid);
-  const double new_centre = 0.5 * (new_a + new_b);
-  const double scale = radius > 0.0 ? 0.5 * (new_a - new_b) / radius : 0.0;
-  Stress<2> out;
+template <class T, class Map>
+[[nodiscard]] Stress<2, T> map_principal(const Stress<2, T>& s, Map&& map) noexcept {
+  const T centre = 0.5 * (s[0] + s[1]), half = 0.5 * (s[0] - s[1]);
+  const T radius = sqrt(half * half + s[3] * s[3]);
+  const T a = centre + radius, b = centre - radius, z = s[2];
+  const Sorted3<T> r = map(sort3(a, b, z));
+  const auto z_high = z > a;
+  const auto z_low = z < b;
+  const T new_a = select(z_high, r.mid, r.hi);
+  const T new_b = select(z_low, r.mid, r.lo);
+  const T new_centre = 0.5 * (new_a + new_b);
+  const T scale = select(radius > T(0.0), 0.5 * (new_a - new_b) / radius, T(0.0));
+  Stress<2, T> out;
   out[0] = new_centre + scale * half;
   out[1] = new_centre - scale * half;
-  out[2] = new_z;
+  out[2] = select(z_high, r.hi, select(z_low, r.lo, r.mid));
   out[3] = scale * s[3];
   return out;
 }
@@ -51,7 +52,7 @@ template <class Map>
   Eigen3 e = eigen_symmetric(s);
   int order[3] = {0, 1, 2};
   std::sort(order, order + 3, [&](int i, int j) { return e.value[i] > e.value[j]; });
-  const Sorted3 r = map(Sorted3{e.value[order[0]], e.value[order[1]], e.value[order[2]]});
+  const Sorted3<double> r = map(Sorted3<double>{e.value[order[0]], e.value[order[1]], e.value[order[2]]});
   const double mapped[3] = {r.hi, r.mid, r.lo};
   Stress<3> out;
   constexpr int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};

@@ -21,12 +21,14 @@ struct ResidualStrength {
     double residual_strain = 1.0;         ///< eps_q^p at which c_soft is reached [-]
     double tension_cutoff = 0.0;          ///< largest mean tension [Pa]
   };
-  struct State {
-    double plastic_strain = 0.0;  ///< accumulated eps_q^p [-]
-    double gap = 0.0;             ///< opened volumetric strain [-]
-    double strength = 0.0;        ///< S_r of this point [Pa]
-    double soft_strength = 0.0;   ///< c_soft of this point [Pa]
+  template <class T>
+  struct StateOf {
+    T plastic_strain = 0.0;  ///< accumulated eps_q^p [-]
+    T gap = 0.0;             ///< opened volumetric strain [-]
+    T strength = 0.0;        ///< S_r of this point [Pa]
+    T soft_strength = 0.0;   ///< c_soft of this point [Pa]
   };
+  using State = StateOf<double>;
   static constexpr std::array<std::string_view, 4> state_names{"plastic_strain", "gap", "strength",
                                                                "soft_strength"};
   struct Constants {
@@ -46,44 +48,49 @@ struct ResidualStrength {
     return {0.0, 0.0, p.strength.value_or(kUnset), p.soft_strength.value_or(kUnset)};
   }
 
-  static double present_strength(const Constants& c, const State& s) noexcept {
+  template <class T>
+  static T present_strength(const Constants& c, const StateOf<T>& s) noexcept {
     return s.strength + (s.soft_strength - s.strength) * c.softening.degree(s.plastic_strain);
   }
 
-  template <int Dim>
-  [[nodiscard]] static StressUpdate<State, Dim> update(const Constants& c, const State& old,
-                                                       const Stress<Dim>& sigma,
-                                                       const StrainIncrement<Dim>& de) noexcept {
+  template <int Dim, class T>
+  [[nodiscard]] static StressUpdate<StateOf<T>, Dim, T> update(
+      const Constants& c, const StateOf<T>& old, const Stress<Dim, T>& sigma,
+      const StrainIncrement<Dim, T>& de) noexcept {
     // (i) elastic predictor; deviator and mean stress are independent of each other.
-    const GapStep step = close_gap_first(old.gap, de[0] + de[1] + de[2]);
-    const double third = (de[0] + de[1] + de[2]) / 3.0;
-    const double p_old = mean_stress(sigma);
-    const double p_trial = p_old + c.elastic.bulk * step.volumetric;
-    std::array<double, kVoigt<Dim>> s{};
-    for (int i = 0; i < 3; ++i) s[i] = sigma[i] - p_old + 2.0 * c.elastic.shear * (de[i] - third);
-    for (int i = 3; i < kVoigt<Dim>; ++i) s[i] = sigma[i] + c.elastic.shear * de[i];
+    const T volumetric = de[0] + de[1] + de[2];
+    const GapStep<T> step = close_gap_first(old.gap, volumetric);
+    const T third = volumetric * (1.0 / 3.0);
+    const T p_old = mean_stress(sigma);
+    const T p_trial = p_old + c.elastic.bulk * step.volumetric;
+    const double two_g = 2.0 * c.elastic.shear;
+    std::array<T, kVoigt<Dim>> s{};
+    T j2_trial = 0.0;
+    for (int i = 0; i < 3; ++i) {
+      s[i] = sigma[i] - p_old + two_g * (de[i] - third);
+      j2_trial += 0.5 * s[i] * s[i];
+    }
+    for (int i = 3; i < kVoigt<Dim>; ++i) {
+      s[i] = sigma[i] + c.elastic.shear * de[i];
+      j2_trial += s[i] * s[i];
+    }
 
-    // (ii) radial return to q = sqrt(3) s_u with the strength at the start of the step; without
-    // bounded mean tension separated soil would hang together, so it carries no shear either.
-    double j2_trial = 0.0;
-    for (int i = 0; i < 3; ++i) j2_trial += 0.5 * s[i] * s[i];
-    for (int i = 3; i < kVoigt<Dim>; ++i) j2_trial += s[i] * s[i];
-    const double tau = std::sqrt(j2_trial);
-    const double limit = present_strength(c, old);
-    const double scale = tau > limit ? limit / tau : 1.0;
-    const double d_plastic = tau > limit ? (tau - limit) / (std::sqrt(3.0) * c.elastic.shear) : 0.0;
+    // (ii) radial return to q = sqrt(3) s_u with the strength at the start of the step.
+    const T tau = sqrt(j2_trial);
+    const T limit = present_strength(c, old);
+    const T over = max(T(0.0), tau - limit);
+    const T scale = select(over > T(0.0), limit / tau, T(1.0));
 
     // (iii) tension cut-off on the mean stress; what opens is remembered.
-    const double excess = std::max(0.0, p_trial - c.tension_cutoff);
-    const double p = p_trial - excess;
+    const T excess = max(T(0.0), p_trial - c.tension_cutoff);
+    const T p = p_trial - excess;
 
-    StressUpdate<State, Dim> r;
+    StressUpdate<StateOf<T>, Dim, T> r;
     for (int i = 0; i < 3; ++i) r.stress[i] = s[i] * scale + p;
     for (int i = 3; i < kVoigt<Dim>; ++i) r.stress[i] = s[i] * scale;
     r.state = old;
-    r.state.plastic_strain = old.plastic_strain + d_plastic;
-    r.state.gap = step.gap + excess / c.elastic.bulk;
-    r.outcome = tau > limit || excess > 0.0 ? Outcome::plastic : Outcome::elastic;
+    r.state.plastic_strain = old.plastic_strain + over * (1.0 / (std::sqrt(3.0) * c.elastic.shear));
+    r.state.gap = step.gap + excess * (1.0 / c.elastic.bulk);
     return r;
   }
 };

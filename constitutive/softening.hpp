@@ -1,5 +1,5 @@
 #pragma once
-#include <algorithm>
+#include "core/pack.hpp"
 
 namespace flowslide {
 
@@ -17,22 +17,25 @@ struct LinearSoftening {
     return {strain_peak / softening_scale, width > 0.0 ? softening_scale / width : 0.0};
   }
   /// 0 at peak, 1 at residual.
-  [[nodiscard]] double degree(double plastic_strain) const noexcept {
-    return std::min(1.0, std::max(0.0, (plastic_strain - strain_peak) * inverse_width));
+  template <class T>
+  [[nodiscard]] T degree(T plastic_strain) const noexcept {
+    return min(T(1.0), max(T(0.0), (plastic_strain - strain_peak) * inverse_width));
   }
 };
 
 /// Volume that opens when tension exceeds the cut-off is kept as a gap, a volumetric strain >= 0.
 /// It must close again before the soil carries compression; without it each cycle of separation
 /// and contact leaves the soil bulked.
+template <class T>
 struct GapStep {
-  double volumetric;  ///< part of the volumetric strain increment that strains the soil
-  double gap;         ///< gap after the increment
+  T volumetric;  ///< part of the volumetric strain increment that strains the soil
+  T gap;         ///< gap after the increment
 };
-[[nodiscard]] inline GapStep close_gap_first(double gap, double volumetric) noexcept {
-  const double left = gap + volumetric;
-  const bool open = gap > 0.0;
-  return {open ? std::min(left, 0.0) : volumetric, open ? std::max(left, 0.0) : 0.0};
+template <class T>
+[[nodiscard]] GapStep<T> close_gap_first(T gap, T volumetric) noexcept {
+  const T left = gap + volumetric;
+  const auto open = gap > T(0.0);
+  return {select(open, min(left, T(0.0)), volumetric), select(open, max(left, T(0.0)), T(0.0))};
 }
 
 }  // namespace flowslide

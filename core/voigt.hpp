@@ -2,6 +2,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/pack.hpp"
+
 /// Stress and strain in Voigt form; order and signs in core/conventions.hpp.
 /// `Stress` and `StrainIncrement` are different types so that the factor 2 of engineering shear
 /// cannot cross from one to the other.
@@ -10,32 +12,33 @@ namespace flowslide {
 template <int Dim>
 inline constexpr int kVoigt = Dim == 2 ? 4 : 6;
 
-template <int Dim>
+/// `T` is double, or Pack for eight points at once.
+template <int Dim, class T = double>
 struct Stress {
-  std::array<double, kVoigt<Dim>> v{};
-  double& operator[](int i) { return v[i]; }
-  double operator[](int i) const { return v[i]; }
+  std::array<T, kVoigt<Dim>> v{};
+  T& operator[](int i) { return v[i]; }
+  const T& operator[](int i) const { return v[i]; }
   bool operator==(const Stress&) const = default;
 };
 
-template <int Dim>
+template <int Dim, class T = double>
 struct StrainIncrement {
-  std::array<double, kVoigt<Dim>> v{};
-  double& operator[](int i) { return v[i]; }
-  double operator[](int i) const { return v[i]; }
+  std::array<T, kVoigt<Dim>> v{};
+  T& operator[](int i) { return v[i]; }
+  const T& operator[](int i) const { return v[i]; }
 };
 
 /// Mean stress p = tr(sigma)/3, tension positive [Pa].
-template <int Dim>
-constexpr double mean_stress(const Stress<Dim>& s) {
+template <int Dim, class T>
+constexpr T mean_stress(const Stress<Dim, T>& s) {
   return (s[0] + s[1] + s[2]) / 3.0;
 }
 
 /// Second deviatoric invariant J2 = 1/2 s:s [Pa2].
-template <int Dim>
-constexpr double j2(const Stress<Dim>& s) {
-  const double p = mean_stress(s);
-  double sum = 0.0;
+template <int Dim, class T>
+constexpr T j2(const Stress<Dim, T>& s) {
+  const T p = mean_stress(s);
+  T sum = 0.0;
   for (int i = 0; i < 3; ++i) sum += 0.5 * (s[i] - p) * (s[i] - p);
   for (int i = 3; i < kVoigt<Dim>; ++i) sum += s[i] * s[i];
   return sum;

@@ -9,11 +9,12 @@
 namespace flowslide::mpm {
 
 /// `spin_dt` is W_yx dt, the in-plane rotation angle of the step, counter-clockwise [rad].
-inline Stress<2> rotate(const Stress<2>& s, double spin_dt) noexcept {
-  const double t = 0.5 * spin_dt, denominator = 1.0 / (1.0 + t * t);
-  const double c = (1.0 - t * t) * denominator, n = 2.0 * t * denominator;
-  const double cc = c * c, nn = n * n, cn = c * n;
-  Stress<2> r;
+template <class T>
+Stress<2, T> rotate(const Stress<2, T>& s, const T& spin_dt) noexcept {
+  const T t = 0.5 * spin_dt, denominator = 1.0 / (1.0 + t * t);
+  const T c = (1.0 - t * t) * denominator, n = 2.0 * t * denominator;
+  const T cc = c * c, nn = n * n, cn = c * n;
+  Stress<2, T> r;
   r[0] = cc * s[0] + nn * s[1] - 2.0 * cn * s[3];
   r[1] = nn * s[0] + cc * s[1] + 2.0 * cn * s[3];
   r[2] = s[2];
@@ -38,6 +39,36 @@ inline Stress<3> rotate(const Stress<3>& s, const std::array<double, 3>& w) noex
   Stress<3> out;
   out.v = {o[0][0], o[1][1], o[2][2], o[0][1], o[1][2], o[0][2]};
   return out;
+}
+
+/// Rotation of the step that belongs to a velocity gradient (row-major).
+template <int Dim, class T>
+Stress<Dim, T> rotate_by_spin(const Stress<Dim, T>& s, const std::array<T, Dim * Dim>& l, double dt) noexcept {
+  if constexpr (Dim == 2) {
+    return rotate(s, T((l[2] - l[1]) * (0.5 * dt)));
+  } else {
+    return rotate(s, {0.5 * dt * (l[7] - l[5]), 0.5 * dt * (l[2] - l[6]), 0.5 * dt * (l[3] - l[1])});
+  }
+}
+
+/// Strain of the step; `volumetric_shift` is added to each normal component, zz included.
+template <int Dim, class T>
+StrainIncrement<Dim, T> strain_increment(const std::array<T, Dim * Dim>& l, T volumetric_shift, double dt) noexcept {
+  StrainIncrement<Dim, T> de;
+  if constexpr (Dim == 2) {
+    de[0] = l[0] * dt + volumetric_shift;
+    de[1] = l[3] * dt + volumetric_shift;
+    de[2] = volumetric_shift;
+    de[3] = (l[1] + l[2]) * dt;
+  } else {
+    de[0] = l[0] * dt + volumetric_shift;
+    de[1] = l[4] * dt + volumetric_shift;
+    de[2] = l[8] * dt + volumetric_shift;
+    de[3] = (l[1] + l[3]) * dt;
+    de[4] = (l[5] + l[7]) * dt;
+    de[5] = (l[2] + l[6]) * dt;
+  }
+  return de;
 }
 
 }  // namespace flowslide::mpm

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <span>
+#include <type_traits>
 #include <variant>
 
 /// Stress update of the points from their velocity gradients: corotational, with the volumetric
@@ -41,71 +42,79 @@ struct StressWork {
   }
 };
 
+/// Laws run on eight points at once in plane strain; in 3D principal axes need an iteration per
+/// point.
+template <int Dim>
+using Lanes = std::conditional_t<Dim == 2, Pack, double>;
+
 template <int Dim, class M>
 StressWork update_run(Points<Dim>& p, const Tile<Dim>& tile, const MaterialRun& run,
                       const SolverMaterial& material, const typename M::Constants& constants,
                       double dt, const TileScratch<Dim>& s) noexcept {
+  using T = Lanes<Dim>;
+  using State = typename M::template StateOf<T>;
   constexpr int V = kVoigt<Dim>, S = static_cast<int>(M::state_names.size());
+  constexpr int width = std::is_same_v<T, Pack> ? Pack::lanes : 1;
   const double modulus = material.elastic.bulk + 2.0 * material.elastic.shear;
-  double power_start = 0.0, power_end = 0.0, wave2 = 0.0, speed2 = 0.0, strain2 = 0.0;
-#pragma omp simd reduction(+ : power_start, power_end) reduction(max : wave2, speed2, strain2)
-  for (std::int32_t q = run.first; q < run.last; ++q) {
+  StressWork work;
+  T wave2 = 0.0, speed2 = 0.0, strain2 = 0.0;
+  for (std::int32_t q = run.first; q < run.last; q += width) {
+    const int n = std::min<int>(width, run.last - q);
     const std::int32_t k = q - tile.first;
-    double l[Dim * Dim];
-    for (int i = 0; i < Dim * Dim; ++i) l[i] = s.gradient[i][k];
-    Stress<Dim> sigma;
-    for (int i = 0; i < V; ++i) sigma[i] = p.sigma[i][q];
-    std::array<double, S> values{};
-    for (int i = 0; i < S; ++i) values[i] = p.state[i][q];
-    typename M::State state{};
-    if constexpr (S > 0) state = std::bit_cast<typename M::State>(values);
-
-    StrainIncrement<Dim> de;
-    const double shift = s.average.change[k] / 3.0 * dt;
-    Stress<Dim> rotated;
-    if constexpr (Dim == 2) {
-      de[0] = l[0] * dt + shift;
-      de[1] = l[3] * dt + shift;
-      de[2] = shift;
-      de[3] = (l[1] + l[2]) * dt;
-      rotated = rotate(sigma, 0.5 * (l[2] - l[1]) * dt);
-    } else {
-      de[0] = l[0] * dt + shift;
-      de[1] = l[4] * dt + shift;
-      de[2] = l[8] * dt + shift;
-      de[3] = (l[1] + l[3]) * dt;
-      de[4] = (l[5] + l[7]) * dt;
-      de[5] = (l[2] + l[6]) * dt;
-      rotated = rotate(
-          sigma, {0.5 * (l[3] - l[1]) * dt, 0.5 * (l[7] - l[5]) * dt, 0.5 * (l[2] - l[6]) * dt});
+    const auto read = [&](const std::vector<double>& array, std::int32_t at) {
+      if constexpr (std::is_same_v<T, Pack>) return load_pack(array.data() + at, n);
+      else return array[at];
+    };
+    const auto write = [&](std::vector<double>& array, T value) {
+      if constexpr (std::is_same_v<T, Pack>) store_pack(array.data() + q, value, n);
+      else array[q] = value;
+    };
+    std::array<T, Dim * Dim> l;
+    unroll<Dim * Dim>([&](auto i) { l[i] = read(s.gradient[i], k); });
+    Stress<Dim, T> sigma;
+    unroll<V>([&](auto i) { sigma[i] = read(p.sigma[i], q); });
+    State state{};
+    if constexpr (S > 0) {
+      std::array<T, S> values;
+      unroll<S>([&](auto i) { values[i] = read(p.state[i], q); });
+      state = std::bit_cast<State>(values);
     }
-    const auto result = M::template update<Dim>(constants, state, rotated, de);
 
-    const double volume = p.volume[q];
-    double work_start = 0.0, work_end = 0.0;
+    const T shift = read(s.average.change, k) * (dt / 3.0);
+    const StrainIncrement<Dim, T> de = strain_increment<Dim>(l, shift, dt);
+    const auto result = M::template update<Dim>(constants, state, rotate_by_spin<Dim>(sigma, l, dt), de);
+
+    const T volume = read(p.volume, q);
+    T work_start = 0.0, work_end = 0.0;
     for (int i = 0; i < V; ++i) {
       work_start += sigma[i] * de[i];
       work_end += result.stress[i] * de[i];
     }
-    for (int i = 0; i < V; ++i) p.sigma[i][q] = result.stress[i];
+    unroll<V>([&](auto i) { write(p.sigma[i], result.stress[i]); });
     if constexpr (S > 0) {
-      values = std::bit_cast<std::array<double, S>>(result.state);
-      for (int i = 0; i < S; ++i) p.state[i][q] = values[i];
+      const auto values = std::bit_cast<std::array<T, S>>(result.state);
+      unroll<S>([&](auto i) { write(p.state[i], values[i]); });
     }
-    const double growth = de[0] + de[1] + de[2];
+    const T growth = de[0] + de[1] + de[2];
     // exp(growth) to third order: volume stays positive for any compression the step limit allows.
-    const double new_volume = volume * (1.0 + growth * (1.0 + growth * (0.5 + growth / 6.0)));
-    p.volume[q] = new_volume;
-    power_start += volume * work_start;
-    power_end += new_volume * work_end;
-    wave2 = std::max(wave2, modulus * new_volume / p.mass[q]);
-    double v2 = 0.0, l2 = 0.0;
-    for (int d = 0; d < Dim; ++d) v2 += p.v[d][q] * p.v[d][q];
+    const T new_volume = volume * (1.0 + growth * (1.0 + growth * (0.5 + growth * (1.0 / 6.0))));
+    write(p.volume, new_volume);
+    wave2 = max(wave2, modulus * new_volume / read(p.mass, q));
+    T v2 = 0.0, l2 = 0.0;
+    unroll<Dim>([&](auto d) {
+      const T v = read(p.v[d], q);
+      v2 += v * v;
+    });
     for (int i = 0; i < Dim * Dim; ++i) l2 += l[i] * l[i];
-    speed2 = std::max(speed2, v2);
-    strain2 = std::max(strain2, l2);
+    speed2 = max(speed2, v2);
+    strain2 = max(strain2, l2);
+    work.power_start += sum_lanes(volume * work_start, n);
+    work.power_end += sum_lanes(new_volume * work_end, n);
   }
-  return {power_start, power_end, wave2, speed2, std::sqrt(strain2) * dt};
+  work.max_wave2 = max_lanes(wave2);
+  work.max_speed2 = max_lanes(speed2);
+  work.max_strain = std::sqrt(max_lanes(strain2)) * dt;
+  return work;
 }
 
 template <int Dim>

@@ -7,10 +7,10 @@
 
 namespace flowslide {
 
-double relative_violation(const MohrCoulombSurface& surface, const Stress<2>& stress) {
+double relative_violation(const MohrCoulombSurface<double>& surface, const Stress<2>& stress) {
   const double centre = 0.5 * (stress[0] + stress[1]);
   const double radius = std::hypot(0.5 * (stress[0] - stress[1]), stress[3]);
-  const Sorted3 s = sort3(centre + radius, centre - radius, stress[2]);
+  const Sorted3<double> s = sort3(centre + radius, centre - radius, stress[2]);
   const double unconfined = std::max(surface.sigma_c, 1.0);
   const double confined = std::max(surface.sigma_c - surface.k * s.hi, unconfined);
   return std::max((surface.k * s.hi - s.lo - surface.sigma_c) / confined,

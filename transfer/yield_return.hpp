@@ -10,7 +10,7 @@ namespace flowslide {
 /// f / strength of the shear part or of the tension limit, whichever is larger; positive: outside.
 /// The strength is that at the present confinement, at least that without confinement and 1 Pa.
 /// `stress` is the one friction acts on.
-double relative_violation(const MohrCoulombSurface& surface, const Stress<2>& stress);
+double relative_violation(const MohrCoulombSurface<double>& surface, const Stress<2>& stress);
 /// (sqrt(J2) - s) / s or (p - tension_cutoff) / s, whichever is larger; s = `strength` [Pa].
 double relative_violation(double strength, double tension_cutoff, const Stress<2>& stress);
 

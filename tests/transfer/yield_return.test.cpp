@@ -23,7 +23,7 @@ TEST_CASE("Mohr-Coulomb stress is left alone inside and brought to the surface o
           "[transfer]") {
   const MohrCoulomb::Constants c = MohrCoulomb::constants(soil(), 1.0);
   const MohrCoulomb::State dry{};
-  const MohrCoulombSurface surface = MohrCoulomb::surface(c, dry);
+  const MohrCoulombSurface<double> surface = MohrCoulomb::surface(c, dry);
 
   const Stress<2> inside{{-50e3, -100e3, -50e3, 0.0}};
   CHECK(relative_violation(surface, inside) < 0.0);
