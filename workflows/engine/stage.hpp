@@ -134,7 +134,14 @@ StageType stage_type() {
                  .manual = manual_page<typename S::Config>};
   type.prepare = [](const std::optional<YamlNode>& with, const YamlNode& stage) {
     using Config = typename S::Config;
-    const Config config = read_settings<Config>(with, stage.path() + ".with");
+    const Config config = [&] {
+      if (with) return read_settings<Config>(with, stage.path() + ".with");
+      try {
+        return read_settings<Config>(with, "with");
+      } catch (const InputError& e) {
+        throw stage.error(e.what());  // nothing written, so the place is that of the stage
+      }
+    }();
     if constexpr (requires { S::check(config); }) {
       try {
         S::check(config);

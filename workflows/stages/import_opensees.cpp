@@ -1,3 +1,4 @@
+#include "core/units.hpp"
 #include "importers/opensees.hpp"
 #include "workflows/stages/stage_list.hpp"
 
@@ -19,7 +20,12 @@ struct ImportOpenSees {
     Artifact<FemHistory> history{"history.h5"};
     void visit(auto&& port) { port("history", history); }
   };
-  static void check(const Config& config) { flowslide::check(config); }
+  static void check(const Config& config) {
+    flowslide::check(config);
+    (void)unit_factor(config.units.length, Dim::length);
+    (void)unit_factor(config.units.time, Dim::time);
+    (void)unit_factor(config.units.stress, Dim::stress);
+  }
   static StageResult run(const RunContext& context, const Config& config, const Inputs&,
                          const Outputs& out) {
     const ImportReport report = import_opensees(config, out.history.path, context.progress);
