@@ -39,9 +39,9 @@ constexpr Stress<Dim, T> hooke(const Elasticity& e, const Stress<Dim, T>& s,
   return r;
 }
 
-/// A law M. `StateOf<T>` is an aggregate of numbers T in the order of `state_names`, so that solvers
-/// can keep it as plain arrays; State is StateOf<double>. `Constants` are numbers derived once from
-/// the parameters: what the update needs, without a transcendental function per point.
+/// A law M. `StateOf<T>` is an aggregate of numbers T in the order of `state_names`, so that
+/// solvers can keep it as plain arrays; State is StateOf<double>. `Constants` are numbers derived
+/// once from the parameters: what the update needs, without a transcendental function per point.
 /// `softening_scale` is cell size over reference length (docs/theory/softening.md).
 template <class M, int Dim>
 concept ConstitutiveModel = std::is_aggregate_v<typename M::Params> &&

@@ -99,8 +99,7 @@ struct MohrCoulomb {
       const T d1 = t.hi - r.s1, d2 = t.mid - r.s2, d3 = t.lo - r.s3;
       const T mean = (d1 + d2 + d3) * (1.0 / 3.0);
       const T e1 = d1 - mean, e2 = d2 - mean, e3 = d3 - mean;
-      deviatoric =
-          sqrt(2.0 / 3.0 * (e1 * e1 + e2 * e2 + e3 * e3)) * (0.5 / c.elastic.shear);
+      deviatoric = sqrt(2.0 / 3.0 * (e1 * e1 + e2 * e2 + e3 * e3)) * (0.5 / c.elastic.shear);
       // Only what opens at the tension corner closes again; dilation of shear does not.
       opened = select(r.s3 >= y.tension, max(T(0.0), mean) * (1.0 / c.elastic.bulk), T(0.0));
       return Sorted3<T>{r.s1, r.s2, r.s3};
@@ -120,8 +119,12 @@ struct MohrCoulomb {
   template <class T>
   static T sine(T x) noexcept {
     const T y = x * x;
-    return x * (1.0 + y * (-1.0 / 6 + y * (1.0 / 120 + y * (-1.0 / 5040 + y * (1.0 / 362880 +
-                y * (-1.0 / 39916800 + y * (1.0 / 6227020800.0 + y * (-1.0 / 1307674368000.0))))))));
+    return x * (1.0 + y * (-1.0 / 6 +
+                           y * (1.0 / 120 + y * (-1.0 / 5040 +
+                                                 y * (1.0 / 362880 +
+                                                      y * (-1.0 / 39916800 +
+                                                           y * (1.0 / 6227020800.0 +
+                                                                y * (-1.0 / 1307674368000.0))))))));
   }
 };
 static_assert(ConstitutiveModel<MohrCoulomb, 2> && ConstitutiveModel<MohrCoulomb, 3>);

@@ -28,7 +28,8 @@ template <class T>
 }
 
 template <class T>
-[[nodiscard]] Principal<T> return_to_mohr_coulomb(const Elasticity& e, const MohrCoulombSurface<T>& y,
+[[nodiscard]] Principal<T> return_to_mohr_coulomb(const Elasticity& e,
+                                                  const MohrCoulombSurface<T>& y,
                                                   const Principal<T>& t) noexcept {
   const double lambda = e.bulk - 2.0 / 3.0 * e.shear;
   const double two_g = 2.0 * e.shear;
@@ -49,8 +50,7 @@ template <class T>
   const T q1 = y.k * common - db_three;
   const T det1 = a_db * a_db - q1 * q1;
   const T xa = (a_db * f13 - q1 * f23) / det1, xb = (a_db * f23 - q1 * f13) / det1;
-  const T upper =
-      0.5 * ((t.s1 - xa * db_one - xb * common) + (t.s2 - xb * db_one - xa * common));
+  const T upper = 0.5 * ((t.s1 - xa * db_one - xb * common) + (t.s2 - xb * db_one - xa * common));
   const Principal<T> edge12{upper, upper, y.k * upper - y.sigma_c};
 
   // Edge s2 = s3: planes 13 and 12.
@@ -83,7 +83,7 @@ template <class T>
   // Where tension and shear meet: s1 and s3 are fixed, s2 follows from both flow directions.
   const T s3_corner = y.k * st - y.sigma_c;
   const T xm = ((t.s1 - st) * lambda - (t.s3 - s3_corner) * (lambda + two_g)) /
-                    (2.0 * two_g * (lambda + e.shear));
+               (2.0 * two_g * (lambda + e.shear));
   const T s2_corner = t.s2 - (t.s3 - s3_corner) - two_g * xm;
   const Principal<T> corner{st, min(st, max(s3_corner, s2_corner)), s3_corner};
 

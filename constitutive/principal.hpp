@@ -52,7 +52,8 @@ template <class Map>
   Eigen3 e = eigen_symmetric(s);
   int order[3] = {0, 1, 2};
   std::sort(order, order + 3, [&](int i, int j) { return e.value[i] > e.value[j]; });
-  const Sorted3<double> r = map(Sorted3<double>{e.value[order[0]], e.value[order[1]], e.value[order[2]]});
+  const Sorted3<double> r =
+      map(Sorted3<double>{e.value[order[0]], e.value[order[1]], e.value[order[2]]});
   const double mapped[3] = {r.hi, r.mid, r.lo};
   Stress<3> out;
   constexpr int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};

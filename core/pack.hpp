@@ -7,9 +7,10 @@
 #include <immintrin.h>
 #endif
 
-/// Eight doubles that go through the same arithmetic, on GCC's and Clang's vector extension. Formulas
-/// written as templates over a number type T run on double and on Pack; `select` takes the place of
-/// branches. One AVX-512 register, two AVX registers or four SSE ones, as the target has them.
+/// Eight doubles that go through the same arithmetic, on GCC's and Clang's vector extension.
+/// Formulas written as templates over a number type T run on double and on Pack; `select` takes the
+/// place of branches. One AVX-512 register, two AVX registers or four SSE ones, as the target has
+/// them.
 namespace flowslide {
 
 struct Pack {

@@ -1,6 +1,5 @@
 #pragma once
-#include <array>
-#include <cmath>
+#include "core/pack.hpp"
 
 /// One-dimensional shape functions on a grid of unit spacing; tensor products give 2D and 3D.
 /// docs/theory/mpm.md
@@ -14,9 +13,13 @@ struct QuadraticBSpline {
   static constexpr double gradient_bound =
       6.0;  ///< largest sum |grad w|^2 / w per direction [1/h^2]
   /// Lowest node of the support of a point at `x` [cells].
-  static double base(double x) noexcept { return std::floor(x - 0.5); }
+  template <class T>
+  static T base(T x) noexcept {
+    return floor(x - 0.5);
+  }
   /// Weights and gradients [1/cell] at distance `d` = x - base, in [0.5, 1.5).
-  static void evaluate(double d, double* w, double* g) noexcept {
+  template <class T>
+  static void evaluate(T d, T* w, T* g) noexcept {
     w[0] = 0.5 * (1.5 - d) * (1.5 - d);
     w[1] = 0.75 - (d - 1.0) * (d - 1.0);
     w[2] = 0.5 * (d - 0.5) * (d - 0.5);
@@ -34,8 +37,12 @@ struct Linear {
   static constexpr double affine_moment = 0.25;  ///< not constant for linear functions; see g2p.hpp
   static constexpr double gradient_bound =
       16.0;  ///< at 1/16 of a cell from a node; unbounded nearer
-  static double base(double x) noexcept { return std::floor(x); }
-  static void evaluate(double d, double* w, double* g) noexcept {
+  template <class T>
+  static T base(T x) noexcept {
+    return floor(x);
+  }
+  template <class T>
+  static void evaluate(T d, T* w, T* g) noexcept {
     w[0] = 1.0 - d;
     w[1] = d;
     g[0] = -1.0;

@@ -35,56 +35,50 @@ void gather_tile(Points<Dim>& p, const Tile<Dim>& tile, const Grid<Dim>& grid, d
   std::array<double, Dim> corner;
   for (int d = 0; d < Dim; ++d) corner[d] = tile.block[d] * B - 1.0;
 
-  // Plain pointers, so that the compiler need not fear that a store moves an array.
-  const std::int32_t first = tile.first, count = tile.last - tile.first;
-  double *px[Dim], *pv[Dim], *pc[Dim * Dim], *pl[Dim * Dim];
-  for (int d = 0; d < Dim; ++d) {
-    px[d] = p.x[d].data() + first;
-    pv[d] = p.v[d].data() + first;
-  }
-  for (int k = 0; k < Dim * Dim; ++k) {
-    pc[k] = p.c[k].data() + first;
-    pl[k] = scratch.gradient[k].data();
-  }
-#pragma omp simd
-  for (std::int32_t q = 0; q < count; ++q) {
-    double w[Dim][N], g[Dim][N], r[Dim];
-    int at = 0;
+  for (std::int32_t q = tile.first; q < tile.last; q += Pack::lanes) {
+    const int count = std::min<int>(Pack::lanes, tile.last - q);
+    Pack w[Dim][N], g[Dim][N], r[Dim], index = 0.0;
     unroll<Dim>([&](auto d) {
-      const double position = (px[d][q] - grid.origin[d]) * inverse - corner[d];
-      const double base = Basis::base(position);
+      const Pack position =
+          (load_pack(p.x[d].data() + q, count) - grid.origin[d]) * inverse - corner[d];
+      const Pack base = Basis::base(position);
       Basis::evaluate(position - base, w[d], g[d]);
       r[d] = base - position;
-      at += static_cast<int>(base) * power<d>(W);
+      index += base * double(power<d>(W));
     });
-    double u[Dim], moment[Dim][Dim], gradient[Dim][Dim];
+    std::int32_t at[Pack::lanes];
+    for (int i = 0; i < Pack::lanes; ++i) at[i] = static_cast<std::int32_t>(index[i]);
+
+    Pack u[Dim], moment[Dim][Dim], gradient[Dim][Dim];
     unroll<Dim>([&](auto d) {
-      double s_u = 0, s_x = 0, s_y = 0, s_z = 0, g_x = 0, g_y = 0, g_z = 0;
+      Pack s_u = 0, s_x = 0, s_y = 0, s_z = 0, g_x = 0, g_y = 0, g_z = 0;
       unroll<(Dim == 3 ? N : 1)>([&](auto l) {
-        double t_u = 0, t_x = 0, t_y = 0, t_gx = 0, t_gy = 0;
+        Pack t_u = 0, t_x = 0, t_y = 0, t_gx = 0, t_gy = 0;
         unroll<N>([&](auto j) {
-          double a = 0, ax = 0, ag = 0;
+          Pack a = 0, ax = 0, ag = 0;
           unroll<N>([&](auto i) {
-            const double vi = v[d][at + (i + W * j + (Dim == 3 ? W * W * l : 0))];
-            a += w[0][i] * vi;
-            ax += (w[0][i] * i) * vi;
+            const Pack vi = gather_pack(v[d] + (i + W * j + (Dim == 3 ? W * W * l : 0)), at);
+            const Pack weighted = w[0][i] * vi;
+            a += weighted;
+            if constexpr (i > 0) ax += double(i) * weighted;
             ag += g[0][i] * vi;
           });
           t_u += w[1][j] * a;
           t_x += w[1][j] * ax;
           t_gx += w[1][j] * ag;
-          t_y += (w[1][j] * j) * a;
+          if constexpr (j > 0) t_y += double(j) * (w[1][j] * a);
           t_gy += g[1][j] * a;
         });
-        const double wz = Dim == 3 ? w[Dim - 1][l] : 1.0;
-        s_u += wz * t_u;
-        s_x += wz * t_x;
-        s_y += wz * t_y;
-        g_x += wz * t_gx;
-        g_y += wz * t_gy;
         if constexpr (Dim == 3) {
-          s_z += (wz * l) * t_u;
-          g_z += g[Dim - 1][l] * t_u;
+          s_u += w[2][l] * t_u;
+          s_x += w[2][l] * t_x;
+          s_y += w[2][l] * t_y;
+          g_x += w[2][l] * t_gx;
+          g_y += w[2][l] * t_gy;
+          if constexpr (l > 0) s_z += double(l) * (w[2][l] * t_u);
+          g_z += g[2][l] * t_u;
+        } else {
+          s_u = t_u, s_x = t_x, s_y = t_y, g_x = t_gx, g_y = t_gy;
         }
       });
       u[d] = s_u;
@@ -99,14 +93,14 @@ void gather_tile(Points<Dim>& p, const Tile<Dim>& tile, const Grid<Dim>& grid, d
     });
     unroll<Dim>([&](auto d) {
       unroll<Dim>([&](auto e) {
-        pl[Dim * d + e][q] = gradient[d][e];
+        store_pack(scratch.gradient[Dim * d + e].data() + (q - tile.first), gradient[d][e], count);
         // sum w v (x_i - x_p) = h (moment + r u)
-        pc[Dim * d + e][q] = kTransfer == Transfer::tpic
-                                  ? gradient[d][e]
-                                  : affine * h * (moment[d][e] + r[e] * u[d]);
+        const Pack c = kTransfer == Transfer::tpic ? gradient[d][e]
+                                                   : affine * h * (moment[d][e] + r[e] * u[d]);
+        store_pack(p.c[Dim * d + e].data() + q, c, count);
       });
-      pv[d][q] = u[d];
-      px[d][q] += dt * u[d];
+      store_pack(p.v[d].data() + q, u[d], count);
+      store_pack(p.x[d].data() + q, load_pack(p.x[d].data() + q, count) + dt * u[d], count);
     });
   }
 }

@@ -9,8 +9,8 @@ namespace flowslide::mpm {
 /// What the grid did in one step; the sums close the balances of energy and momentum.
 template <int Dim>
 struct GridWork {
-  double internal_start = 0.0;  ///< dt sum f.v with velocities before the step [J]
-  double internal_end = 0.0;    ///< dt sum f.v* with velocities after it [J]
+  double internal_start = 0.0;                 ///< dt sum f.v with velocities before the step [J]
+  double internal_end = 0.0;                   ///< dt sum f.v* with velocities after it [J]
   double gravity = 0.0;                        ///< work of gravity [J]
   double damping = 0.0;                        ///< work of artificial damping, <= 0 [J]
   double boundary = 0.0;                       ///< work of boundary impulses, <= 0 [J]

@@ -13,7 +13,7 @@ namespace flowslide::mpm {
 /// All sums of a node in one vector register; plain vector extension of GCC and Clang.
 using Vec8 = double __attribute__((vector_size(64), aligned(64)));
 
-inline constexpr int kBatch = 16;  ///< points whose weights are evaluated together
+inline constexpr int kBatch = Pack::lanes;  ///< points whose weights are evaluated together
 
 /// `mean_change` is added to the normal stresses of each point of the tile: what F-bar does to the
 /// force.
@@ -37,26 +37,24 @@ void scatter_tile(const Points<Dim>& p, const Tile<Dim>& tile, const double* mea
   for (int d = 0; d < Dim; ++d) corner[d] = tile.block[d] * B - 1.0;
 
   double w[Dim][N][kBatch], g[Dim][N][kBatch], rel[Dim][kBatch];
-  int node[kBatch];
+  std::int32_t node[kBatch];
   for (std::int32_t first = tile.first; first < tile.last; first += kBatch) {
     const int count = std::min<std::int32_t>(kBatch, tile.last - first);
-#pragma omp simd
-    for (int k = 0; k < count; ++k) {
-      int at = 0;
-      unroll<Dim>([&](auto d) {
-        const double x = (p.x[d][first + k] - grid.origin[d]) * inverse - corner[d];
-        const double base = Basis::base(x);
-        double wk[N], gk[N];
-        Basis::evaluate(x - base, wk, gk);
-        unroll<N>([&](auto i) {
-          w[d][i][k] = wk[i];
-          g[d][i][k] = gk[i] * inverse;
-        });
-        rel[d][k] = (base - x) * h;
-        at += static_cast<int>(base) * power<d>(W);
+    Pack index = 0.0;
+    unroll<Dim>([&](auto d) {
+      const Pack x =
+          (load_pack(p.x[d].data() + first, count) - grid.origin[d]) * inverse - corner[d];
+      const Pack base = Basis::base(x);
+      Pack wk[N], gk[N];
+      Basis::evaluate(x - base, wk, gk);
+      unroll<N>([&](auto i) {
+        store_pack(w[d][i], wk[i], kBatch);
+        store_pack(g[d][i], gk[i] * inverse, kBatch);
       });
-      node[k] = at;
-    }
+      store_pack(rel[d], (base - x) * h, kBatch);
+      index += base * double(power<d>(W));
+    });
+    for (int k = 0; k < kBatch; ++k) node[k] = static_cast<std::int32_t>(index[k]);
     for (int k = 0; k < count; ++k) {
       const std::int32_t q = first + k;
       const double m = p.mass[q], minus_v = -p.volume[q];

@@ -43,17 +43,20 @@ inline Stress<3> rotate(const Stress<3>& s, const std::array<double, 3>& w) noex
 
 /// Rotation of the step that belongs to a velocity gradient (row-major).
 template <int Dim, class T>
-Stress<Dim, T> rotate_by_spin(const Stress<Dim, T>& s, const std::array<T, Dim * Dim>& l, double dt) noexcept {
+Stress<Dim, T> rotate_by_spin(const Stress<Dim, T>& s, const std::array<T, Dim * Dim>& l,
+                              double dt) noexcept {
   if constexpr (Dim == 2) {
     return rotate(s, T((l[2] - l[1]) * (0.5 * dt)));
   } else {
-    return rotate(s, {0.5 * dt * (l[7] - l[5]), 0.5 * dt * (l[2] - l[6]), 0.5 * dt * (l[3] - l[1])});
+    return rotate(s,
+                  {0.5 * dt * (l[7] - l[5]), 0.5 * dt * (l[2] - l[6]), 0.5 * dt * (l[3] - l[1])});
   }
 }
 
 /// Strain of the step; `volumetric_shift` is added to each normal component, zz included.
 template <int Dim, class T>
-StrainIncrement<Dim, T> strain_increment(const std::array<T, Dim * Dim>& l, T volumetric_shift, double dt) noexcept {
+StrainIncrement<Dim, T> strain_increment(const std::array<T, Dim * Dim>& l, T volumetric_shift,
+                                         double dt) noexcept {
   StrainIncrement<Dim, T> de;
   if constexpr (Dim == 2) {
     de[0] = l[0] * dt + volumetric_shift;

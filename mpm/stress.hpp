@@ -30,9 +30,9 @@ struct SolverMaterial {
 struct StressWork {
   double power_start = 0.0;  ///< dt sum V sigma : D with V and sigma before the step [J]
   double power_end = 0.0;    ///< the same with V and sigma after it [J]
-  double max_wave2 = 0.0;     ///< largest (K + 2 G) / rho [m2/s2]
-  double max_speed2 = 0.0;    ///< largest |v|^2 [m2/s2]
-  double max_strain = 0.0;    ///< largest |L| dt of the step [-]
+  double max_wave2 = 0.0;    ///< largest (K + 2 G) / rho [m2/s2]
+  double max_speed2 = 0.0;   ///< largest |v|^2 [m2/s2]
+  double max_strain = 0.0;   ///< largest |L| dt of the step [-]
   void add(const StressWork& o) {
     power_start += o.power_start;
     power_end += o.power_end;
@@ -62,12 +62,16 @@ StressWork update_run(Points<Dim>& p, const Tile<Dim>& tile, const MaterialRun& 
     const int n = std::min<int>(width, run.last - q);
     const std::int32_t k = q - tile.first;
     const auto read = [&](const std::vector<double>& array, std::int32_t at) {
-      if constexpr (std::is_same_v<T, Pack>) return load_pack(array.data() + at, n);
-      else return array[at];
+      if constexpr (std::is_same_v<T, Pack>)
+        return load_pack(array.data() + at, n);
+      else
+        return array[at];
     };
     const auto write = [&](std::vector<double>& array, T value) {
-      if constexpr (std::is_same_v<T, Pack>) store_pack(array.data() + q, value, n);
-      else array[q] = value;
+      if constexpr (std::is_same_v<T, Pack>)
+        store_pack(array.data() + q, value, n);
+      else
+        array[q] = value;
     };
     std::array<T, Dim * Dim> l;
     unroll<Dim * Dim>([&](auto i) { l[i] = read(s.gradient[i], k); });
@@ -82,7 +86,8 @@ StressWork update_run(Points<Dim>& p, const Tile<Dim>& tile, const MaterialRun& 
 
     const T shift = read(s.average.change, k) * (dt / 3.0);
     const StrainIncrement<Dim, T> de = strain_increment<Dim>(l, shift, dt);
-    const auto result = M::template update<Dim>(constants, state, rotate_by_spin<Dim>(sigma, l, dt), de);
+    const auto result =
+        M::template update<Dim>(constants, state, rotate_by_spin<Dim>(sigma, l, dt), de);
 
     const T volume = read(p.volume, q);
     T work_start = 0.0, work_end = 0.0;

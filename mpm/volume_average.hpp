@@ -27,14 +27,15 @@ void find_spans(const Points<Dim>& p, const Tile<Dim>& tile, const Grid<Dim>& gr
                 SpanScratch& s) noexcept {
   constexpr int B = kBlockWidth<Dim>;
   const double inverse = 1.0 / grid.h;
-#pragma omp simd
-  for (std::int32_t q = tile.first; q < tile.last; ++q) {
-    int at = 0;
+  for (std::int32_t q = tile.first; q < tile.last; q += Pack::lanes) {
+    const int count = std::min<int>(Pack::lanes, tile.last - q);
+    Pack at = 0.0;
     unroll<Dim>([&](auto d) {
-      const double x = (p.x[d][q] - grid.origin[d]) * inverse - (tile.block[d] * B - 1.0);
-      at += static_cast<int>(Basis::base(x)) * power<d>(B + 2);
+      const Pack x = (load_pack(p.x[d].data() + q, count) - grid.origin[d]) * inverse -
+                     (tile.block[d] * B - 1.0);
+      at += Basis::base(x) * double(power<d>(B + 2));
     });
-    s.span[q - tile.first] = at;
+    for (int k = 0; k < count; ++k) s.span[q - tile.first + k] = static_cast<std::int32_t>(at[k]);
   }
 }
 

@@ -1,0 +1,151 @@
+#include "constitutive/pm4sand.hpp"
+
+#include "constitutive/pm4sand_flow.hpp"
+
+namespace flowslide {
+namespace {
+
+/// OpenSees' interpolation, which follows the authors' FLAC code rather than their manual.
+double default_ce(double Dr) { return std::clamp(0.5 - 1.5 * (Dr - 0.55), 0.2, 0.5); }
+
+double default_Ckaf(double Dr) {
+  return std::clamp(5.0 + 220.0 * (Dr - 0.26) * (Dr - 0.26) * (Dr - 0.26), 4.0, 35.0);
+}
+
+}  // namespace
+
+PM4Sand::Constants PM4Sand::constants(const Params& p) {
+  validate(p.emax > p.emin,
+           "pm4sand: emax {} is not above emin {} (the void ratio falls with density) swap them?",
+           p.emax, p.emin);
+  validate(p.Q > std::log(100.0),
+           "pm4sand: Q = {} puts the critical state below one atmosphere (the state index is then "
+           "undefined) use a Q above {:.2f}",
+           p.Q, std::log(100.0));
+  Constants c;
+  c.G0 = p.G0;
+  c.hpo = p.hpo;
+  c.P_atm = p.P_atm;
+  c.h0 = p.h0.value_or(std::max(0.3, 0.5 * (0.25 + p.Dr)));
+  c.emax = p.emax;
+  c.emin = p.emin;
+  c.initial_void_ratio = p.emax - (p.emax - p.emin) * p.Dr;
+  c.Dr = p.Dr;
+  c.nb = p.nb;
+  c.nd = p.nd;
+  c.cz = p.cz;
+  c.ce = p.ce.value_or(default_ce(p.Dr));
+  c.M = 2.0 * std::sin(p.phi_cv);
+  c.Cgd = p.Cgd;
+  c.Cdr = std::min(p.Cdr.value_or(5.0 + 25.0 * (p.Dr - 0.35)), 10.0);
+  c.Ckaf = std::clamp(p.Ckaf.value_or(default_Ckaf(p.Dr)), 4.0, 35.0);
+  c.Q = p.Q;
+  c.R = p.R;
+  c.m = p.m;
+  c.Fsed_min = std::min(p.Fsed_min.value_or(0.03 * std::exp(2.6 * p.Dr)), 0.99);
+  c.p_sedo = p.p_sedo.value_or(0.2 * p.P_atm);
+  c.bulk_ratio = 2.0 / 3.0 * (1.0 + p.nu) / (1.0 - 2.0 * p.nu);
+  c.Ado = p.Ado;
+  c.z_max = p.z_max;
+  c.max_strain_increment = p.max_strain_increment;
+  c.tolerance = p.tolerance;
+  return c;
+}
+
+Elasticity PM4Sand::gravity_elasticity(const Params& p, double poisson_ratio) {
+  const double shear = p.G0 * p.P_atm;
+  return {2.0 / 3.0 * (1.0 + poisson_ratio) / (1.0 - 2.0 * poisson_ratio) * shear, shear};
+}
+
+PM4Sand::State PM4Sand::initial_state(const Constants& c, const Stress<2>& sigma,
+                                      double volumetric_strain) noexcept {
+  using namespace pm4sand;
+  State s;
+  double p = -0.5 * (sigma[0] + sigma[1]);
+  Deviator dev{-0.5 * (sigma[0] - sigma[1]), -sigma[3]};
+  s.p_min = std::max(p, c.P_atm) / 200.0;
+  if (p < s.p_min) {
+    s.held_p = p - s.p_min;
+    s.held = dev;
+    p = s.p_min;
+    dev = {};
+  }
+  const Surfaces f = surfaces(c, p, c.Dr);
+  s.z_max = c.z_max.value_or(std::min(0.7 * std::exp(-6.1 * f.xi), 20.0));
+  const double dense_A_do =
+      f.Mb > 2.0 ? 1.5
+                 : 2.5 * (std::asin(0.5 * f.Mb) - std::asin(0.5 * c.M)) / (f.Mb - f.Md);
+  s.A_do = c.Ado.value_or(f.xi < 0.0 ? dense_A_do : 1.24);
+
+  const double M_cut = std::max(f.Mb, f.Md);
+  const double M_start = kRoot2 * norm(dev) / p;
+  if (M_start > M_cut) {
+    const Deviator inside = (M_cut / M_start) * dev;
+    s.held = dev - inside;
+    s.alpha = ((M_cut - c.m) / (M_cut * p)) * inside;
+  } else {
+    s.alpha = (1.0 / p) * dev;
+  }
+  s.alpha_true = s.alpha_max = s.alpha_min = s.alpha;
+  s.z_peak = 1e-5 * s.z_max;
+  s.p_zp = 0.01 * p;
+  s.void_ratio = c.initial_void_ratio - (1.0 + c.initial_void_ratio) * volumetric_strain;
+  return s;
+}
+
+Elasticity PM4Sand::elasticity(const Constants& c, const State& s,
+                               const Stress<2>& sigma) noexcept {
+  using namespace pm4sand;
+  const double p = -0.5 * (sigma[0] + sigma[1]) - s.held_p;
+  const Deviator dev = Deviator{-0.5 * (sigma[0] - sigma[1]), -sigma[3]} - s.held;
+  const Surfaces f =
+      surfaces(c, std::max(p, s.p_min), relative_density(c, s.void_ratio));
+  const Moduli e = moduli(c, s, f, p, dev);
+  return {e.K, e.G};
+}
+
+void Schema<PM4Sand::Params>::describe(FieldVisitor& v, PM4Sand::Params& p) {
+  const Range positive{.above = 0.0};
+  v.quantity("Dr", p.Dr, Dim::none, {.max = 1.0, .above = 0.0}, "relative density, 0..1");
+  v.quantity("G0", p.G0, Dim::none, positive, "shear modulus coefficient");
+  v.quantity("hpo", p.hpo, Dim::none, positive,
+             "contraction rate parameter; calibrate it to the cyclic strength");
+  v.quantity("P_atm", p.P_atm, Dim::stress, positive, "atmospheric pressure");
+  v.quantity("h0", p.h0, Dim::none, positive,
+             "plastic modulus factor; left out: max(0.3, (0.25 + Dr)/2)");
+  v.quantity("emax", p.emax, Dim::none, positive, "largest void ratio");
+  v.quantity("emin", p.emin, Dim::none, positive, "smallest void ratio");
+  v.quantity("nb", p.nb, Dim::none, {.min = 0.0}, "exponent of the bounding surface");
+  v.quantity("nd", p.nd, Dim::none, {.min = 0.0}, "exponent of the dilatancy surface");
+  v.quantity("Ado", p.Ado, Dim::none, positive,
+             "dilatancy coefficient; left out: from the surfaces at the initial state");
+  v.quantity("z_max", p.z_max, Dim::none, positive,
+             "limit of fabric; left out: min(0.7 exp(-6.1 xi_R0), 20)");
+  v.quantity("cz", p.cz, Dim::none, {.min = 0.0}, "rate of fabric growth");
+  v.quantity("ce", p.ce, Dim::none, positive,
+             "factor on the strain accumulation after liquefaction; left out: 0.5 to 0.2 for Dr "
+             "0.55 to 0.75");
+  v.quantity("phi_cv", p.phi_cv, Dim::angle, {.above = 0.0, .below = 1.2},
+             "friction angle at the critical state");
+  v.quantity("nu", p.nu, Dim::none, {.min = 0.0, .below = 0.5}, "Poisson's ratio");
+  v.quantity("Cgd", p.Cgd, Dim::none, {.min = 1.0}, "largest degradation of G by fabric");
+  v.quantity("Cdr", p.Cdr, Dim::none, positive,
+             "factor on the dilatancy of the rotated surface; left out: 5 + 25 (Dr - 0.35), at "
+             "most 10");
+  v.quantity("Ckaf", p.Ckaf, Dim::none, positive,
+             "factor on the plastic modulus under a static shear stress; left out: "
+             "5 + 220 (Dr - 0.26)^3; kept within 4..35");
+  v.quantity("Q", p.Q, Dim::none, positive, "critical-state line: Q of Bolton");
+  v.quantity("R", p.R, Dim::none, positive, "critical-state line: R of Bolton");
+  v.quantity("m", p.m, Dim::none, {.above = 0.0, .below = 0.5}, "radius of the yield surface");
+  v.quantity("Fsed_min", p.Fsed_min, Dim::none, positive,
+             "smallest elastic-modulus factor after shaking; left out: 0.03 exp(2.6 Dr)");
+  v.quantity("p_sedo", p.p_sedo, Dim::stress, positive,
+             "mean stress up to which the modulus is lowered after shaking; left out: P_atm/5");
+  v.quantity("max_strain_increment", p.max_strain_increment, Dim::none,
+             {.min = 1e-8, .max = 1.0}, "largest strain component of a sub-step");
+  v.quantity("tolerance", p.tolerance, Dim::none, {.max = 1.0, .above = 0.0},
+             "stress error of a sub-step relative to the stress; larger errors halve the sub-step");
+}
+
+}  // namespace flowslide

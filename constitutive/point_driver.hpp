@@ -1,0 +1,105 @@
+#pragma once
+#include "constitutive/concept.hpp"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+/// Drives one material point along a path of strains, stresses, or both: the laboratory of the
+/// constitutive laws. Stress is effective, tension positive, Pa; shear strain is engineering.
+namespace flowslide {
+
+/// What the driver needs of a point; `make_point` makes one from any law.
+struct PointUnderTest {
+  /// Stress after an increment from the committed state; nothing is remembered.
+  std::function<Stress<2>(const StrainIncrement<2>&)> trial;
+  /// Takes the increment; returns the new stress.
+  std::function<Stress<2>(const StrainIncrement<2>&)> advance;
+  /// Present elastic constants [Pa].
+  std::function<Elasticity()> elasticity;
+  Stress<2> stress;  ///< committed
+};
+
+/// `update(stress, state, de)` returns something with members `stress` and `state`;
+/// `elasticity(stress, state)` the present elastic constants.
+template <class State, class Update, class Elastic>
+PointUnderTest make_point(const Stress<2>& stress, const State& state, Update update,
+                          Elastic elasticity) {
+  struct Memory {
+    Stress<2> stress;
+    State state;
+  };
+  const auto memory = std::make_shared<Memory>(Memory{stress, state});
+  return {[memory, update](const StrainIncrement<2>& de) {
+            return update(memory->stress, memory->state, de).stress;
+          },
+          [memory, update](const StrainIncrement<2>& de) {
+            const auto r = update(memory->stress, memory->state, de);
+            memory->stress = r.stress;
+            memory->state = r.state;
+            return r.stress;
+          },
+          [memory, elasticity] { return elasticity(memory->stress, memory->state); }, stress};
+}
+
+/// One component of a step: prescribed strain increment, or prescribed stress at its end.
+struct Prescribed {
+  enum class Kind { strain, stress } kind = Kind::strain;
+  double value = 0.0;  ///< increment [-], or stress [Pa]
+  static Prescribed strain_increment(double de) { return {Kind::strain, de}; }
+  static Prescribed stress_value(double sigma) { return {Kind::stress, sigma}; }
+};
+
+/// One mixed step in xx, yy, xy (zz strain is zero); Newton with a secant matrix on the stress
+/// components, to `tolerance` [Pa]. Returns the strain increment taken.
+/// Throws NumericsError where the prescribed stress cannot be reached; the point is then as before.
+StrainIncrement<2> mixed_step(PointUnderTest& point, const std::array<Prescribed, 3>& step,
+                              double tolerance);
+
+/// Direct simple shear from a consolidated stress: undrained at constant volume (both normal
+/// strains zero), drained at constant vertical stress and no lateral strain.
+struct SimpleShear {
+  bool drained = false;
+  double strain_step = 5e-6;              ///< |increment of gamma| of a step
+  std::optional<double> reversal_stress;  ///< |tau| at which shearing turns [Pa]
+  std::optional<double> reversal_strain;  ///< |gamma| at which it turns
+  double stop_strain = 0.03;              ///< ends when |gamma| reaches it
+  int max_half_cycles = 1000;             ///< ends after as many reversals
+};
+
+struct ShearRecord {
+  double gamma;                    ///< shear strain
+  double sigma_xx, sigma_yy, tau;  ///< [Pa], tension positive
+  double eps_yy;                   ///< vertical strain since the start
+  int half_cycles;                 ///< reversals so far
+};
+
+enum class ShearEnd { stop_strain, half_cycles };
+
+struct ShearTest {
+  std::vector<ShearRecord> records;  ///< the first is the start, then one a step
+  ShearEnd end;
+};
+
+/// Runs the test; with neither reversal it is monotonic.
+/// Throws InputError for a step, stop or reversal that is not positive; NumericsError as mixed_step
+/// or when the stress is no longer finite, with the step and the strain.
+ShearTest run_simple_shear(PointUnderTest& point, const SimpleShear& test);
+
+/// First |gamma| >= `strain` in cycles (half a cycle for each reversal before, and the fraction of
+/// the present half cycle by strain travelled); empty if the test never reaches it.
+std::optional<double> cycles_to_strain(const ShearTest& test, double strain);
+
+/// r_u = 1 - sigma'_v/sigma'_v0 of a record.
+double pore_pressure_ratio(const ShearTest& test, std::size_t record);
+
+/// Secant shear modulus [Pa] and damping ratio of the closed loop made by the last two half cycles.
+struct Loop {
+  double secant_modulus, damping;
+};
+/// Throws InputError if the test has fewer than three reversals.
+Loop last_loop(const ShearTest& test);
+
+}  // namespace flowslide
