@@ -1,0 +1,61 @@
+#include "motion/at2.hpp"
+
+#include "core/check.hpp"
+#include "core/units.hpp"
+
+namespace flowslide {
+namespace {
+
+// A last line that is filled up is common; a whole line too many is another header or record.
+void check_count(const RecordText& text, const At2Header& header, std::size_t found,
+                 std::size_t full_after_line, const RecordFormat& format,
+                 std::vector<std::string>& notes) {
+  if (found == header.npts) return;
+  const std::string both =
+      fmt::format("{}: {} values, but NPTS is {}", text.name, found, header.npts);
+  if (format.accept_count) {
+    notes.push_back(both + "; the values of the file were used");
+    return;
+  }
+  validate(found > header.npts,
+           "{} (the file was cut, and what is missing changes duration and intensity) get it "
+           "again, or accept the count of the file",
+           both);
+  validate(full_after_line != 0,
+           "{} (whole lines too many: a second record, or a wrong header) correct NPTS, or accept "
+           "the count of the file",
+           both);
+  notes.push_back(both + "; those that fill up the last line were dropped");
+}
+
+}  // namespace
+
+Record parse_at2(const RecordText& text, const RecordFormat& format) {
+  const At2Header header = parse_at2_header(text);
+  const std::optional<std::string> unit = header.unit ? header.unit : format.unit;
+  validate(unit.has_value(),
+           "{}: the header does not state the unit of acceleration (g or cm/s2?) declare it",
+           text.name);
+  const double to_si = unit_factor(*unit, Dim::acceleration);
+
+  Record record{.motion = {.dt = header.dt, .acceleration = {}, .origin = text.name}, .notes = {}};
+  if (!header.title.empty()) record.motion.origin += " (" + header.title + ")";
+  std::vector<double>& values = record.motion.acceleration;
+  std::size_t last_line = 0;    // of those that hold numbers, from 1
+  std::size_t filled_line = 0;  // the one on which value NPTS stands
+  for (std::size_t i = header.data_line; i < text.lines.size(); ++i) {
+    const std::size_t before = values.size();
+    const std::string problem = take_row(text.lines[i], values);
+    validate(problem.empty(), "{}:{}: {}", text.name, i + 1, problem);
+    if (values.size() == before) continue;
+    last_line = i + 1;
+    if (before < header.npts && values.size() >= header.npts) filled_line = i + 1;
+  }
+  check_count(text, header, values.size(), filled_line == last_line ? filled_line : 0, format,
+              record.notes);
+  if (!format.accept_count && values.size() > header.npts) values.resize(header.npts);
+  for (double& a : values) a *= to_si;
+  return record;
+}
+
+}  // namespace flowslide

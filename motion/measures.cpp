@@ -1,0 +1,129 @@
+#include "motion/measures.hpp"
+
+#include "core/conventions.hpp"
+#include "motion/spectrum.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <complex>
+#include <unsupported/Eigen/FFT>
+
+namespace flowslide {
+namespace {
+
+double peak(const std::vector<double>& x) {
+  double most = 0.0;
+  for (const double v : x) most = std::max(most, std::abs(v));
+  return most;
+}
+
+/// Husid curve without its factor: integral of a^2 up to each sample.
+std::vector<double> energy_curve(const GroundMotion& motion) {
+  const std::vector<double>& a = motion.acceleration;
+  std::vector<double> sum(a.size(), 0.0);
+  for (std::size_t i = 1; i < a.size(); ++i)
+    sum[i] = sum[i - 1] + 0.5 * motion.dt * (a[i - 1] * a[i - 1] + a[i] * a[i]);
+  return sum;
+}
+
+double time_of_share(const std::vector<double>& energy, double dt, double share) {
+  const double target = share * energy.back();
+  const auto above = std::upper_bound(energy.begin() + 1, energy.end() - 1, target);
+  const auto i = static_cast<std::size_t>(above - energy.begin());
+  const double gain = energy[i] - energy[i - 1];
+  const double part = gain > 0.0 ? (target - energy[i - 1]) / gain : 0.0;
+  return dt * (static_cast<double>(i - 1) + std::clamp(part, 0.0, 1.0));
+}
+
+}  // namespace
+
+double pga(const GroundMotion& motion) { return peak(motion.acceleration); }
+double pgv(const GroundMotion& motion) { return peak(velocity(motion)); }
+double pgd(const GroundMotion& motion) { return peak(displacement(motion)); }
+
+std::vector<double> velocity(const GroundMotion& motion) {
+  const std::vector<double>& a = motion.acceleration;
+  std::vector<double> v(a.size(), 0.0);
+  for (std::size_t i = 1; i < a.size(); ++i) v[i] = v[i - 1] + 0.5 * motion.dt * (a[i - 1] + a[i]);
+  return v;
+}
+
+std::vector<double> displacement(const GroundMotion& motion) {
+  const std::vector<double>& a = motion.acceleration;
+  const double dt = motion.dt;
+  double v = 0.0;
+  std::vector<double> d(a.size(), 0.0);
+  for (std::size_t i = 1; i < a.size(); ++i) {
+    d[i] = d[i - 1] + dt * v + dt * dt * (a[i - 1] / 3.0 + a[i] / 6.0);
+    v += 0.5 * dt * (a[i - 1] + a[i]);
+  }
+  return d;
+}
+
+double arias_intensity(const GroundMotion& motion) {
+  return kPi / (2.0 * kGravity) * energy_curve(motion).back();
+}
+
+double arias_time(const GroundMotion& motion, double share) {
+  FLOWSLIDE_EXPECT(share >= 0.0 && share <= 1.0);
+  return time_of_share(energy_curve(motion), motion.dt, share);
+}
+
+double significant_duration(const GroundMotion& motion, double from, double to) {
+  FLOWSLIDE_EXPECT(from >= 0.0 && from <= to && to <= 1.0);
+  const std::vector<double> energy = energy_curve(motion);
+  return time_of_share(energy, motion.dt, to) - time_of_share(energy, motion.dt, from);
+}
+
+double cumulative_absolute_velocity(const GroundMotion& motion) {
+  const std::vector<double>& a = motion.acceleration;
+  double sum = 0.0;
+  for (std::size_t i = 1; i < a.size(); ++i) {
+    const double p = std::abs(a[i - 1]), q = std::abs(a[i]);
+    // Two triangles where the straight line between the samples crosses zero.
+    const bool crosses = a[i - 1] * a[i] < 0.0;
+    sum += 0.5 * motion.dt * (crosses ? (p * p + q * q) / (p + q) : p + q);
+  }
+  return sum;
+}
+
+double mean_period(const GroundMotion& motion) {
+  constexpr double kLowest = 0.25, kHighest = 20.0;  // [Hz]
+  constexpr double kSpacing = 0.05;  // [Hz], the coarsest that the definition allows
+  const double needed = std::max(static_cast<double>(motion.acceleration.size()),
+                                 std::ceil(1.0 / (kSpacing * motion.dt)));
+  const std::size_t n = std::bit_ceil(static_cast<std::size_t>(needed));
+  std::vector<double> padded = motion.acceleration;
+  padded.resize(n, 0.0);
+  std::vector<std::complex<double>> c;
+  Eigen::FFT<double> fft;
+  fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
+  fft.fwd(c, padded);
+
+  const double df = 1.0 / (static_cast<double>(n) * motion.dt);
+  double weighted = 0.0, weights = 0.0;
+  for (std::size_t k = 1; k < c.size(); ++k) {
+    const double f = static_cast<double>(k) * df;
+    if (f < kLowest || f > kHighest) continue;
+    weights += std::norm(c[k]);
+    weighted += std::norm(c[k]) / f;
+  }
+  validate(weights > 0.0,
+           "{}: nothing between {} and {} Hz (the mean period is taken there) check the time step "
+           "of {} s",
+           motion.origin, kLowest, kHighest, motion.dt);
+  return weighted / weights;
+}
+
+MotionMeasures measure(const GroundMotion& motion) {
+  check(motion);
+  return {.pga = pga(motion),
+          .pgv = pgv(motion),
+          .arias = arias_intensity(motion),
+          .d5_95 = significant_duration(motion),
+          .tm = mean_period(motion),
+          .cav = cumulative_absolute_velocity(motion),
+          .masi = masi(motion)};
+}
+
+}  // namespace flowslide

@@ -1,0 +1,107 @@
+#include "motion/prepare.hpp"
+
+namespace flowslide {
+
+template <>
+struct Schema<SyntheticConfig> {
+  static constexpr std::string_view doc = "A synthetic motion with given measures.";
+  static void describe(FieldVisitor& v, SyntheticConfig& c) {
+    v.quantity("pga", c.pga, Dim::acceleration, {.above = 0.0}, "peak acceleration, exact");
+    v.quantity("tm", c.tm, Dim::time, {.min = 0.1, .max = 2.0}, "mean period, within 0.2 %");
+    v.quantity("d5_95", c.d5_95, Dim::time, {.min = 1.0, .max = 200.0},
+               "significant duration, within 0.2 %");
+    v.quantity("dt", c.dt, Dim::time, {.min = 1e-4, .max = 0.02}, "time step");
+    v.integer("seed", c.seed, {}, "another seed is another motion with the same measures");
+    v.quantity("bandwidth", c.bandwidth, Dim::none, {.min = 0.1, .max = 2.0},
+               "damping of the ground filter; larger is a broader spectrum");
+    v.quantity("corner", c.corner, Dim::none, {.min = 0.02, .max = 1.0},
+               "corner frequency of the source over the frequency of the ground filter");
+    v.quantity("kappa", c.kappa, Dim::time, {.min = 0.0, .max = 0.2}, "decay of high frequencies");
+    v.quantity("rise", c.rise, Dim::none, {.min = 0.5, .max = 10.0},
+               "exponent of the envelope; smaller is a sharper onset and a longer coda");
+    v.quantity("lead", c.lead, Dim::time, {.min = 0.0, .max = 600.0},
+               "quiet time before the shaking");
+  }
+};
+
+template <>
+struct Schema<BaselineConfig> {
+  static constexpr std::string_view doc = "Baseline correction by a polynomial.";
+  static void describe(FieldVisitor& v, BaselineConfig& c) {
+    v.integer("degree", c.degree, {.min = 0, .max = 8}, "of what is taken off the acceleration");
+    v.choice("fit", c.fit, kBaselineFits,
+             "fit the acceleration, or the velocity with v(0) = 0 and take off the derivative");
+  }
+};
+
+template <>
+struct Schema<BandPass> {
+  static constexpr std::string_view doc = "Butterworth filter.";
+  static void describe(FieldVisitor& v, BandPass& c) {
+    v.quantity("high_pass", c.high_pass, Dim::frequency, {.above = 0.0}, "lower corner");
+    v.quantity("low_pass", c.low_pass, Dim::frequency, {.above = 0.0}, "upper corner");
+    v.integer("order", c.order, {.min = 1, .max = 10}, "of each corner and pass");
+    v.choice("phase", c.phase, kFilterPhases, "forward and backward, or forward only");
+    v.flag("keep_padding", c.keep_padding,
+           "keep the quiet time into which the filter rings, so that displacement stays sound");
+  }
+};
+
+template <>
+struct Schema<ResampleConfig> {
+  static constexpr std::string_view doc = "Another time step.";
+  static void describe(FieldVisitor& v, ResampleConfig& c) {
+    v.quantity("dt", c.dt, Dim::time, {.above = 0.0}, "new time step");
+    v.choice("method", c.method, kResampleMethods,
+             "straight lines, or a windowed sinc that keeps all frequencies both steps can hold");
+  }
+};
+
+void Schema<MotionConfig>::describe(FieldVisitor& v, MotionConfig& c) {
+  v.file("record", c.record, "PEER AT2, or columns of text or CSV; plain or gzip");
+  v.text("unit", c.format.unit,
+         "unit of acceleration in a record that does not state it: g, cm/s2");
+  v.quantity("dt", c.format.dt, Dim::time, {.above = 0.0}, "time step of a record of one column");
+  v.integer("time_column", c.format.time_column, {.min = 0}, "from 1; 0: see the guide");
+  v.integer("acceleration_column", c.format.acceleration_column, {.min = 0},
+            "from 1; 0: see the guide");
+  v.flag("accept_count", c.format.accept_count,
+         "use an AT2 file whose number of values is not its NPTS");
+  v.text("preset", c.preset, "synthetic stand-in for a motion of Table 4 of the paper, by name");
+  v.group("synthetic", c.synthetic, "a synthetic motion with given measures");
+  v.group("baseline", c.baseline, "baseline correction");
+  v.group("filter", c.filter, "band-pass, high-pass or low-pass");
+  v.group("resample", c.resample, "another time step");
+  v.quantity("pga", c.pga, Dim::acceleration, {.above = 0.0},
+             "peak acceleration to which the result is scaled");
+}
+
+void check(const MotionConfig& config) {
+  const int sources = int{config.record.has_value()} + int{config.preset.has_value()} +
+                      int{config.synthetic.has_value()};
+  validate(sources == 1, "{} of record, preset and synthetic are given (exactly one is needed)",
+           sources);
+  validate(!config.preset || config.pga,
+           "preset '{}' without pga (a preset has a shape, no size) add e.g. 'pga: 0.3 g'",
+           config.preset.value_or(""));
+  if (config.preset) preset_config(*config.preset, *config.pga);
+  validate(!config.filter || config.filter->high_pass || config.filter->low_pass,
+           "filter without high_pass or low_pass (nothing would be filtered)");
+}
+
+GroundMotion prepare_motion(const MotionConfig& config) {
+  check(config);
+  GroundMotion motion = config.record   ? read_record(config.record->path, config.format).motion
+                        : config.preset ? synthesize(preset_config(*config.preset, *config.pga))
+                                        : synthesize(*config.synthetic);
+  if (config.baseline)
+    motion = baseline_corrected(motion, config.baseline->degree, config.baseline->fit);
+  if (config.filter) motion = filtered(motion, *config.filter);
+  if (config.resample) motion = resampled(motion, config.resample->dt, config.resample->method);
+  const bool changed = config.baseline || config.filter || config.resample;
+  if (config.pga && (config.record || config.synthetic || changed))
+    motion = scaled_to_pga(motion, *config.pga);
+  return motion;
+}
+
+}  // namespace flowslide

@@ -1,0 +1,195 @@
+#include "motion/synthetic.hpp"
+
+#include "core/conventions.hpp"
+#include "motion/measures.hpp"
+#include "motion/process.hpp"
+
+#include <algorithm>
+#include <complex>
+#include <cstdint>
+#include <unsupported/Eigen/FFT>
+
+namespace flowslide {
+namespace {
+
+/// splitmix64 (Steele, Lea and Flood 2014), so that no library decides what a seed means.
+class Random {
+ public:
+  explicit Random(int seed) : state_(static_cast<std::uint64_t>(seed)) {}
+
+  /// Uniform in (0, 1).
+  double uniform() {
+    state_ += 0x9E3779B97F4A7C15u;
+    std::uint64_t z = state_;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    z ^= z >> 31;
+    return (static_cast<double>(z >> 11) + 0.5) * 0x1p-53;
+  }
+  /// Standard normal (Box and Muller).
+  double normal() {
+    const double radius = std::sqrt(-2.0 * std::log(uniform()));
+    return radius * std::cos(2.0 * kPi * uniform());
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+/// Smallest even number from `least` on without a prime factor above 5, for the transform.
+std::size_t transform_size(std::size_t least) {
+  for (std::size_t n = least + least % 2;; n += 2) {
+    std::size_t rest = n;
+    for (const std::size_t prime : {2u, 3u, 5u})
+      while (rest % prime == 0) rest /= prime;
+    if (rest == 1) return n;
+  }
+}
+
+/// Transfer function of Brune's source spectrum and of the ground filter of Kanai and Tajimi, both
+/// causal so that the motion starts from rest, and of kappa.
+std::complex<double> transfer(double f, double f_g, const SyntheticConfig& c) {
+  const std::complex<double> s(0.0, f / f_g);
+  const std::complex<double> damped = 2.0 * c.bandwidth * s;
+  const std::complex<double> ground = (1.0 + damped) / (1.0 + s * s + damped);
+  const std::complex<double> source = s / (s + c.corner);
+  return source * source * ground * std::exp(-kPi * c.kappa * f);
+}
+
+/// Gamma-shaped envelope with its peak of 1 at t_p (Saragoni and Hart 1974).
+double envelope(double t, double t_p, double rise) {
+  if (t <= 0.0) return 0.0;
+  return std::exp(rise * (std::log(t / t_p) + 1.0 - t / t_p));
+}
+
+/// Ends the envelope, so that the filters ring out before the transform comes round to the start.
+double end_taper(double share) {
+  constexpr double kBegin = 0.75, kEnd = 0.9;  // of the length
+  const double x = std::clamp((share - kBegin) / (kEnd - kBegin), 0.0, 1.0);
+  return 0.5 * (1.0 + std::cos(kPi * x));
+}
+
+struct Shape {
+  double f_g;  ///< frequency of the ground filter [Hz]
+  double t_p;  ///< time of the peak of the envelope [s]
+};
+
+GroundMotion shaped(const SyntheticConfig& c, const std::vector<double>& noise, Shape shape) {
+  const std::size_t n = noise.size();
+  std::vector<double> windowed(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double place = static_cast<double>(i);
+    windowed[i] = noise[i] * envelope(place * c.dt - c.lead, shape.t_p, c.rise) *
+                  end_taper(place / static_cast<double>(n));
+  }
+
+  Eigen::FFT<double> fft;
+  fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
+  std::vector<std::complex<double>> spectrum;
+  fft.fwd(spectrum, windowed);
+  const double df = 1.0 / (static_cast<double>(n) * c.dt);
+  for (std::size_t k = 0; k < spectrum.size(); ++k)
+    spectrum[k] *= transfer(static_cast<double>(k) * df, shape.f_g, c);
+  GroundMotion motion{.dt = c.dt, .acceleration = {}, .origin = "synthetic"};
+  fft.inv(motion.acceleration, spectrum, static_cast<Eigen::Index>(n));
+  return motion;
+}
+
+void check_range(std::string_view what, double value, double least, double most,
+                 std::string_view unit) {
+  validate(value >= least && value <= most, "synthetic motion: {} {}{} is not between {} and {}{}",
+           what, value, unit, least, most, unit);
+}
+
+void check_settings(const SyntheticConfig& c) {
+  check_range("pga", c.pga, 1e-6, 1e3, " m/s2");
+  check_range("tm", c.tm, 0.1, 2.0, " s");
+  check_range("d5_95", c.d5_95, 1.0, 200.0, " s");
+  check_range("dt", c.dt, 1e-4, 0.02, " s");
+  check_range("bandwidth", c.bandwidth, 0.1, 2.0, "");
+  check_range("corner", c.corner, 0.02, 1.0, "");
+  check_range("kappa", c.kappa, 0.0, 0.2, " s");
+  check_range("rise", c.rise, 0.5, 10.0, "");
+  check_range("lead", c.lead, 0.0, 600.0, " s");
+  validate(c.d5_95 >= 3.0 * c.tm,
+           "synthetic motion: d5_95 {} s is shorter than three mean periods of {} s (too few "
+           "cycles to be an earthquake)",
+           c.d5_95, c.tm);
+}
+
+/// Root of a continuous function of log(x), by the regula falsi with halved ends (Illinois).
+/// Returns the best x if there is no change of sign.
+template <class F>
+double root_near(F&& f, double x, double tolerance) {
+  constexpr double kStep = 0.1;
+  constexpr int kIterations = 60;
+  double a = std::log(x), fa = f(x);
+  if (std::abs(fa) < tolerance) return x;
+  double b = a, fb = fa;
+  // Both measures grow with the logarithm that is passed here.
+  for (int i = 0; i < kIterations && fa * fb > 0.0; ++i) {
+    a = b, fa = fb;
+    b += std::copysign(std::clamp(std::abs(fb), 0.01, kStep), -fb);
+    fb = f(std::exp(b));
+  }
+  double c = b;
+  for (int i = 0; i < kIterations; ++i) {
+    c = (a * fb - b * fa) / (fb - fa);
+    const double fc = f(std::exp(c));
+    if (std::abs(fc) < tolerance) break;
+    if (fc * fb < 0.0) {
+      a = b, fa = fb;
+    } else {
+      fa *= 0.5;
+    }
+    b = c, fb = fc;
+  }
+  return std::exp(c);
+}
+
+}  // namespace
+
+GroundMotion synthesize(const SyntheticConfig& config) {
+  constexpr double kTolerance = 2e-3;
+  constexpr int kRounds = 20;
+  check_settings(config);
+  // Three quarters of it, 2.6 durations, hold all but 1 % of the energy of any envelope.
+  const double length = config.lead + 3.5 * config.d5_95;
+  const std::size_t n = transform_size(static_cast<std::size_t>(length / config.dt));
+  std::vector<double> noise(n);
+  Random random(config.seed);
+  for (double& x : noise) x = random.normal();
+
+  // Period follows the ground filter and duration the envelope, with little influence crosswise.
+  Shape shape{.f_g = 0.7 / config.tm, .t_p = 0.55 * config.d5_95};
+  const auto period_error = [&](double ground_period) {
+    const Shape trial{.f_g = 1.0 / ground_period, .t_p = shape.t_p};
+    return std::log(mean_period(shaped(config, noise, trial)) / config.tm);
+  };
+  const auto duration_error = [&](double t_p) {
+    const Shape trial{.f_g = shape.f_g, .t_p = t_p};
+    return std::log(significant_duration(shaped(config, noise, trial)) / config.d5_95);
+  };
+  double tm_error = kUnset, d_error = kUnset;
+  for (int round = 0; round < kRounds; ++round) {
+    shape.t_p = root_near(duration_error, shape.t_p, 0.2 * kTolerance);
+    shape.f_g = 1.0 / root_near(period_error, 1.0 / shape.f_g, 0.2 * kTolerance);
+    GroundMotion motion = shaped(config, noise, shape);
+    tm_error = std::abs(mean_period(motion) / config.tm - 1.0);
+    d_error = std::abs(significant_duration(motion) / config.d5_95 - 1.0);
+    if (tm_error < kTolerance && d_error < kTolerance) {
+      motion = scaled_to_pga(motion, config.pga);
+      motion.origin = fmt::format(
+          "synthetic, Tm {} s, D5-95 {} s, PGA {:.4g} g, seed {}, bandwidth {}, corner {}",
+          config.tm, config.d5_95, config.pga / kGravity, config.seed, config.bandwidth,
+          config.corner);
+      return motion;
+    }
+  }
+  throw NumericsError(fmt::format(
+      "synthetic motion: Tm {} s and D5-95 {} s were not reached together (off by {:.2g} % and "
+      "{:.2g} % after {} rounds) change seed, bandwidth or corner",
+      config.tm, config.d5_95, 100.0 * tm_error, 100.0 * d_error, kRounds));
+}
+
+}  // namespace flowslide

@@ -1,0 +1,80 @@
+#include "motion/prepare.hpp"
+
+#include "config/yaml.hpp"
+#include "motion/measures.hpp"
+#include "motion/write_motion.hpp"
+#include "signals.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace flowslide;
+using Catch::Contains;
+using flowslide::test::harmonic;
+using flowslide::test::MotionFolder;
+
+namespace {
+
+MotionConfig read_config(const MotionFolder& folder, const std::string& text) {
+  return read_settings<MotionConfig>(load_yaml(folder.write("motion.yaml", text)), "");
+}
+
+}  // namespace
+
+TEST_CASE("a record is processed in the declared order", "[motion]") {
+  const MotionFolder folder;
+  write_motion(folder.path("m.csv"), harmonic(1.0, 2.0, 0.01, 10.0));
+  const MotionConfig config = read_config(folder,
+                                          "record: m.csv\nunit: m/s2\n"
+                                          "baseline: {degree: 1, fit: velocity}\n"
+                                          "filter: {high_pass: 0.2 Hz, low_pass: 20 Hz}\n"
+                                          "resample: {dt: 5 ms}\n"
+                                          "pga: 0.25 g\n");
+  CHECK(config.baseline->fit == BaselineFit::velocity);
+  const GroundMotion motion = prepare_motion(config);
+  CHECK(motion.dt == 0.005);
+  CHECK(pga(motion) == 0.25 * kGravity);
+  const std::string& o = motion.origin;
+  CHECK(o.starts_with("m.csv"));
+  CHECK(o.find("baseline") < o.find("Butterworth"));
+  CHECK(o.find("Butterworth") < o.find("resampled"));
+  CHECK(o.find("resampled") < o.find("scaled"));
+}
+
+TEST_CASE("a record without processing stays what it is", "[motion]") {
+  const MotionFolder folder;
+  const GroundMotion sine = harmonic(1.0, 2.0, 0.01, 10.0);
+  write_motion(folder.path("m.csv"), sine);
+  const GroundMotion motion = prepare_motion(read_config(folder, "record: m.csv\nunit: m/s2\n"));
+  CHECK(motion.acceleration == sine.acceleration);
+}
+
+TEST_CASE("presets and synthetic motions come from settings", "[motion]") {
+  const MotionFolder folder;
+  const GroundMotion preset =
+      prepare_motion(read_config(folder, "preset: loma-prieta-lick\npga: 0.2 g\n"));
+  CHECK(preset.acceleration ==
+        synthesize(preset_config("loma-prieta-lick", 0.2 * kGravity)).acceleration);
+  const GroundMotion synthetic = prepare_motion(
+      read_config(folder, "synthetic: {pga: 1 m/s2, tm: 0.4 s, d5_95: 8 s, seed: 3}\n"));
+  CHECK(pga(synthetic) == 1.0);
+  CHECK(mean_period(synthetic) == Approx(0.4).epsilon(3e-3));
+}
+
+TEST_CASE("settings of a motion that contradict are refused", "[motion]") {
+  const MotionFolder folder;
+  const auto problem = [&](const std::string& text) {
+    try {
+      check(read_config(folder, text));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  CHECK_THAT(problem("pga: 0.3 g\n"), Contains("0 of record, preset and synthetic"));
+  CHECK_THAT(problem("record: a.at2\npreset: corinth\npga: 0.3 g\n"), Contains("2 of record"));
+  CHECK_THAT(problem("preset: corinth\n"), Contains("without pga"));
+  CHECK_THAT(problem("preset: corint\npga: 0.3 g\n"), Contains("unknown motion preset"));
+  CHECK_THAT(problem("record: a.at2\nfilter: {order: 2}\n"), Contains("without high_pass"));
+  CHECK_THAT(problem("record: a.at2\npga: 0.3\n"), Contains("no unit"));
+  CHECK_THAT(problem("synthetic: {tm: 0.4 s, d5_95: 8 s}\n"), Contains("pga"));
+}
