@@ -1,0 +1,62 @@
+#include "mpm/basis.hpp"
+
+#include <random>
+
+#include <catch2/catch.hpp>
+
+using namespace flowslide::mpm;
+
+TEMPLATE_TEST_CASE("Shape functions reproduce linear fields", "[mpm]", Linear, QuadraticBSpline) {
+  using Basis = TestType;
+  constexpr int N = Basis::nodes;
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> anywhere(-50.0, 50.0);
+  for (int i = 0; i < 5000; ++i) {
+    double x = anywhere(random);
+    if (i % 10 == 0) x = std::round(2.0 * x) / 2.0;  // nodes and mid-points, where pieces meet
+    double w[N], g[N];
+    const double base = Basis::base(x);
+    Basis::evaluate(x - base, w, g);
+    double sum = 0, slope = 0, first = 0, first_slope = 0, second = 0;
+    for (int k = 0; k < N; ++k) {
+      const double node = base + k;
+      CHECK(w[k] >= 0.0);
+      sum += w[k];
+      slope += g[k];
+      first += w[k] * node;
+      first_slope += g[k] * node;
+      second += w[k] * (node - x) * (node - x);
+    }
+    CHECK(sum == Approx(1.0).epsilon(1e-14));
+    CHECK(slope == Approx(0.0).margin(1e-14));
+    CHECK(first == Approx(x).margin(1e-13));
+    CHECK(first_slope == Approx(1.0).epsilon(1e-12));
+    if constexpr (N == 3) CHECK(second == Approx(Basis::affine_moment).epsilon(1e-11));
+  }
+}
+
+TEMPLATE_TEST_CASE("Gradients are the slopes of the weights", "[mpm]", Linear, QuadraticBSpline) {
+  using Basis = TestType;
+  constexpr int N = Basis::nodes;
+  const double step = 1e-6;
+  for (double x = 0.03; x < 3.0; x += 0.07) {
+    double w0[N], w1[N], g[N], unused[N];
+    const double base = Basis::base(x);
+    Basis::evaluate(x - base - step, w0, unused);
+    Basis::evaluate(x - base + step, w1, unused);
+    Basis::evaluate(x - base, unused, g);
+    for (int k = 0; k < N; ++k) CHECK((w1[k] - w0[k]) / (2.0 * step) == Approx(g[k]).margin(1e-8));
+  }
+}
+
+TEST_CASE("The gradient bound of the quadratic spline is its largest value", "[mpm]") {
+  double largest = 0.0;
+  for (int i = 1; i < 1000; ++i) {
+    double w[3], g[3], s = 0.0;
+    QuadraticBSpline::evaluate(0.5 + i / 1000.0, w, g);
+    for (int k = 0; k < 3; ++k) s += g[k] * g[k] / w[k];
+    largest = std::max(largest, s);
+    CHECK(s <= QuadraticBSpline::gradient_bound);
+  }
+  CHECK(largest > 0.99 * QuadraticBSpline::gradient_bound);
+}

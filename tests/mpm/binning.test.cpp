@@ -1,0 +1,110 @@
+#include "mpm/binning.hpp"
+
+#include <algorithm>
+#include <random>
+
+#include <catch2/catch.hpp>
+
+using namespace flowslide;
+using namespace flowslide::mpm;
+
+namespace {
+
+template <int Dim>
+Points<Dim> random_points(int n, unsigned seed) {
+  Points<Dim> p;
+  visit_arrays(p, [&](auto& a) { a.assign(n, {}); });
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> place(-40.0, 40.0);
+  for (int q = 0; q < n; ++q) {
+    for (int d = 0; d < Dim; ++d) p.x[d][q] = place(random);
+    p.mass[q] = 1.0 + q;
+    p.material[q] = static_cast<std::int32_t>(random() % 3);
+    p.index[q] = q;
+  }
+  return p;
+}
+
+template <int Dim>
+struct Binned {
+  Points<Dim> p;
+  Grid<Dim> grid;
+  Tiling<Dim> tiling;
+  explicit Binned(Points<Dim> points) : p(std::move(points)) {
+    grid.h = 0.5;
+    for (int d = 0; d < Dim; ++d) grid.origin[d] = 0.3 * d;
+    BinningScratch scratch;
+    bin_points<Dim>(p, grid, tiling, 0.5, scratch);
+  }
+};
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("Every point lies in its tile and in a run of its material", "[mpm]",
+                       ((int Dim), Dim), 2, 3) {
+  const Points<Dim> before = random_points<Dim>(3000, 1);
+  const Binned<Dim> b(before);
+  std::vector<int> seen(before.size(), 0);
+  std::int32_t expected = 0;
+  for (std::size_t t = 0; t < b.tiling.tiles.size(); ++t) {
+    const Tile<Dim>& tile = b.tiling.tiles[t];
+    REQUIRE(tile.first == expected);
+    REQUIRE(tile.last > tile.first);
+    expected = tile.last;
+    std::int32_t in_run = tile.first;
+    for (std::int32_t r = b.tiling.run_first[t]; r < b.tiling.run_first[t + 1]; ++r) {
+      const MaterialRun& run = b.tiling.runs[r];
+      REQUIRE(run.first == in_run);
+      in_run = run.last;
+      for (std::int32_t q = run.first; q < run.last; ++q) {
+        REQUIRE(b.p.material[q] == run.material);
+        const std::int32_t original = b.p.index[q];
+        ++seen[original];
+        REQUIRE(b.p.mass[q] == before.mass[original]);  // arrays move together
+        if (q > run.first) REQUIRE(b.p.index[q - 1] < original);
+        for (int d = 0; d < Dim; ++d) {
+          REQUIRE(b.p.x[d][q] == before.x[d][original]);
+          const double base = std::floor((b.p.x[d][q] - b.grid.origin[d]) / b.grid.h - 0.5);
+          REQUIRE(base >= tile.block[d] * kBlockWidth<Dim>);
+          REQUIRE(base < (tile.block[d] + 1) * kBlockWidth<Dim>);
+        }
+      }
+    }
+    REQUIRE(in_run == tile.last);
+    // Neighbours are where their place in `around` says, the tile's own block in the middle.
+    for (int n = 0; n < kNeighbours<Dim>; ++n) {
+      int rest = n;
+      for (int d = 0; d < Dim; ++d, rest /= 3)
+        REQUIRE(b.grid.blocks[tile.around[n]][d] == tile.block[d] + rest % 3 - 1);
+    }
+  }
+  REQUIRE(expected == std::int32_t(before.size()));
+  CHECK(std::all_of(seen.begin(), seen.end(), [](int k) { return k == 1; }));
+  CHECK(b.grid.nodes.size() == b.grid.blocks.size() * kBlockNodes<Dim>);
+}
+
+TEMPLATE_TEST_CASE_SIG("Tiles of one colour share no block", "[mpm]", ((int Dim), Dim), 2, 3) {
+  const Binned<Dim> b(random_points<Dim>(3000, 2));
+  std::size_t coloured = 0;
+  for (const auto& colour : b.tiling.colour) {
+    coloured += colour.size();
+    for (const std::int32_t i : colour) {
+      for (const std::int32_t j : colour) {
+        if (i == j) continue;
+        int apart = 0;
+        for (int d = 0; d < Dim; ++d)
+          apart =
+              std::max(apart, std::abs(b.tiling.tiles[i].block[d] - b.tiling.tiles[j].block[d]));
+        REQUIRE(apart >= 2);
+      }
+    }
+  }
+  CHECK(coloured == b.tiling.tiles.size());
+}
+
+TEST_CASE("Binning twice is binning once", "[mpm]") {
+  const Binned<2> once(random_points<2>(2000, 3));
+  const Binned<2> twice(once.p);
+  CHECK(once.p.index == twice.p.index);
+  CHECK(once.tiling.run_first == twice.tiling.run_first);
+}
