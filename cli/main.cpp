@@ -27,6 +27,7 @@ int run(int argc, char** argv) {
   flowslide::cli::add_run(app, action);
   flowslide::cli::add_check(app, action);
   flowslide::cli::add_inspect(app, action);
+  flowslide::cli::add_motion(app, action);
   flowslide::cli::add_report(app, action);
   flowslide::cli::add_schema(app, action);
   flowslide::cli::add_docs(app, action);

@@ -145,3 +145,23 @@ TEST_CASE("a small import runs, is then up to date, and can be inspected", "[cli
     CHECK_FALSE(std::filesystem::exists(scratch / "out/result.json"));
   }
 }
+
+TEST_CASE("records are measured as text and as JSON", "[cli]") {
+  const Scratch scratch;
+  scratch.write("a.AT2",
+                "PEER\nSomewhere\nACCELERATION IN UNITS OF G\nNPTS= 8, DT= .02 SEC\n"
+                "0 .1 -.2 .1 0 -.1 .05 0\n");
+  const Outcome json = call(scratch, "motion a.AT2 --pga 0.3g --json");
+  CHECK(json.code == 0);
+  CHECK_THAT(json.out, Contains("\"file\": \"a.AT2\"") && Contains("\"npts\": 8") &&
+                           Contains("\"dt_s\": 0.02") && Contains("\"masi_m_s\""));
+  const Outcome text = call(scratch, "motion a.AT2 a.AT2");
+  CHECK(text.code == 0);
+  CHECK_THAT(text.out, Contains("0.2000") && Contains("D5-95"));
+
+  CHECK(call(scratch, "motion none.AT2").code == 4);
+  CHECK(call(scratch, "motion a.AT2 --pga 0.3").code == 2);
+  scratch.write("b.csv", "0.1\n0.2\n");
+  CHECK(call(scratch, "motion b.csv --unit g").code == 2);
+  CHECK(call(scratch, "motion b.csv --unit g --dt 0.01s").code == 0);
+}

@@ -1,0 +1,64 @@
+#include "cli/command.hpp"
+#include "core/units.hpp"
+#include "motion/table.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace flowslide::cli {
+namespace {
+
+struct Options {
+  std::vector<std::string> files;
+  std::string pga, dt;  ///< with their units; empty: not given
+  RecordFormat format;
+  bool json = false;
+};
+
+int measure_records(Options options) {
+  std::optional<double> pga;
+  if (!options.pga.empty()) pga = parse_quantity(options.pga, Dim::acceleration);
+  if (!options.dt.empty()) options.format.dt = parse_quantity(options.dt, Dim::time);
+  if (options.format.unit) unit_factor(*options.format.unit, Dim::acceleration);
+  std::vector<MotionRow> rows;
+  for (const std::string& file : options.files) {
+    rows.push_back(measure_record(file, pga, options.format));
+    for (const std::string& note : rows.back().notes) fmt::print(stderr, "note: {}\n", note);
+  }
+  if (options.json)
+    fmt::print("{}\n", motion_json(rows));
+  else
+    fmt::print("{}", motion_table(rows, pga));
+  return 0;
+}
+
+}  // namespace
+
+void add_motion(CLI::App& app, Command& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("motion", "Measure earthquake records");
+  command->add_option("files", options->files, "AT2, or columns of text or CSV; plain or gzip")
+      ->required();
+  command->add_option("--pga", options->pga, "scale to this peak, such as 0.3g, for PGV and MASI");
+  command->add_option("--unit", options->format.unit,
+                      "acceleration unit of files that do not state it: g, cm/s2, m/s2");
+  command->add_option("--dt", options->dt, "time step, such as 0.01s, of files of one column");
+  command->add_option("--time-column", options->format.time_column, "from 1, in wider files")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--acceleration-column", options->format.acceleration_column,
+                   "from 1, in wider files")
+      ->check(CLI::NonNegativeNumber);
+  command->add_flag("--accept-count", options->format.accept_count,
+                    "use AT2 files whose number of values is not their NPTS");
+  command->add_flag("--json", options->json, "as JSON");
+  command->callback(
+      [options, &action] { action = [options] { return measure_records(*options); }; });
+}
+
+}  // namespace flowslide::cli
