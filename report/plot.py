@@ -85,6 +85,9 @@ def flow_history(table):
         energy.plot(t, table[f"{name}_J_per_m"] / 1e6, color=style[0], ls=style[1], label=label)
     energy.set_ylabel("energy (MJ/m)")
     legend(energy)
+    # Relative to the work of gravity: without meaning while that is next to nothing.
+    flowing = table["gravity_work_J_per_m"] > 0.01 * table["gravity_work_J_per_m"].max()
+    t, table = t[flowing], table[flowing]
     error.plot(t, 100 * table["energy_error"], color=BLUE, label="energy")
     error.plot(t, 100 * table["momentum_error"], color=ORANGE, ls="--", label="momentum")
     error.set_ylabel("residual (%)")

@@ -40,15 +40,13 @@ class Section:
         height = top - p["y0"].min()
         if failed.any():
             left = max(left, p["x0"][failed].min() - height)
-        toe = self.info["toe_m"]
-        dam_end = min(right, toe + 0.5 * height) if toe is not None else right
-        flow_end = max(dam_end, p["x"].max() + 0.3 * height)
+        flow_end = max(right, p["x"].max() + 0.3 * height)
         self.ylim = (p["y0"].min() - 0.05 * height, top + 0.28 * height)
-        self.dam = (left, dam_end)
-        self.whole = (left, flow_end)
-        self.windows = [("Dam", self.dam)]
-        if flow_end - left > 1.25 * (dam_end - left):
-            self.windows.insert(0, ("Whole flow", self.whole))
+        self.windows = [("Whole flow", (left, flow_end))]
+        toe = self.info["toe_m"]
+        if toe is not None and toe - 5 * height > left + 0.2 * (flow_end - left):
+            self.windows.append(("Dam and runout", (toe - 5 * height, flow_end)))
+        self.dam = (left if toe is None else max(left, toe - 5 * height), right)
 
 
 def inches_high(xlim, ylim, bar):
@@ -152,7 +150,7 @@ def annotate_runout(ax, section):
 
 def final_displacement(section):
     figure, axes = stacked(section.windows, section.ylim, bar=0.85,
-                           title=f", {section.info['time_s']:g} s after transfer")
+                           title=f", {section.info['time_s']:.4g} s after transfer")
     d = section.points["displacement"]
     moved = d > section.info["moved_m"]
     norm = Normalize(0, max(d.max(), section.info["moved_m"]))
@@ -225,7 +223,7 @@ def section_before(section):
     with_r_u = np.isfinite(e["r_u"]).any() and info["transfer_frame"] >= 0
     if with_r_u:
         panels.insert(0, ("Pore-pressure ratio at transfer, "
-                          f"t = {info['transfer_time_s']:g} s", section.dam))
+                          f"t = {info['transfer_time_s']:.4g} s", section.dam))
     strengths = np.unique(np.round(e["strength"][e["liquefied"] > 0] / 1e3, 2))
     figure, axes = stacked(panels, section.ylim, bar=0.85, footer=0.22)
     soils = np.unique(e["material"], return_inverse=True)[1]
