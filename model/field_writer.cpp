@@ -41,6 +41,21 @@ bool set_integer(hid_t object, const char* name, std::int64_t value) {
   return attribute.valid() && H5Awrite(attribute, H5T_NATIVE_INT64, &value) >= 0;
 }
 
+/// Creates the groups in front of the last part of a name, without the times that HDF5 would give
+/// to those it creates by itself.
+bool create_groups(hid_t file, const std::string& name) {
+  const Hdf5Handle creation(H5Pcreate(H5P_GROUP_CREATE), &H5Pclose);
+  H5Pset_obj_track_times(creation, false);
+  for (auto at = name.find('/'); at != std::string::npos; at = name.find('/', at + 1)) {
+    const std::string group = name.substr(0, at);
+    if (H5Lexists(file, group.c_str(), H5P_DEFAULT) > 0) continue;
+    const Hdf5Handle made(H5Gcreate2(file, group.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT),
+                          &H5Gclose);
+    if (!made.valid()) return false;
+  }
+  return true;
+}
+
 /// What is in the page cache of a file or folder goes to the disk.
 bool sync(const std::filesystem::path& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -69,8 +84,7 @@ struct FieldWriter::Impl {
                     const FieldLabel& label) {
     const Hdf5Handle space(
         H5Screate_simple(static_cast<int>(extent.size()), extent.data(), limit.data()), &H5Sclose);
-    const Hdf5Handle links(H5Pcreate(H5P_LINK_CREATE), &H5Pclose);
-    H5Pset_create_intermediate_group(links, 1);
+    if (!create_groups(file, name)) throw_file_error(partial, name, "cannot be created");
     const Hdf5Handle layout(H5Pcreate(H5P_DATASET_CREATE), &H5Pclose);
     H5Pset_obj_track_times(layout, false);
     if (!chunk.empty()) {
@@ -79,8 +93,8 @@ struct FieldWriter::Impl {
       H5Pset_deflate(layout, 1);
       H5Pset_fletcher32(layout);
     }
-    Hdf5Handle dataset(H5Dcreate2(file, name.c_str(), type, space, links, layout, H5P_DEFAULT),
-                       &H5Dclose);
+    Hdf5Handle dataset(
+        H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, layout, H5P_DEFAULT), &H5Dclose);
     if (!dataset.valid() || !set_text(dataset, "unit", label.unit) ||
         !set_text(dataset, "convention", label.convention))
       throw_file_error(partial, name, "cannot be created");

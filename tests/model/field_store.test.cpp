@@ -246,3 +246,19 @@ TEST_CASE("no flipped byte goes unnoticed") {
   CAPTURE(noticed, harmless, good.size());
   CHECK(noticed > 10);
 }
+
+TEST_CASE("nothing in a file carries the time at which it was written") {
+  const Scratch folder;
+  write_small(folder / "s.h5");
+  const hid_t file = H5Fopen((folder / "s.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  for (const char* name : {"/", "a", "group", "group/b", "words", "series"}) {
+    CAPTURE(name);
+    H5O_info_t info{};
+    REQUIRE(H5Oget_info_by_name(file, name, &info, H5P_DEFAULT) >= 0);
+    CHECK(info.btime == 0);
+    CHECK(info.ctime == 0);
+    CHECK(info.mtime == 0);
+    CHECK(info.atime == 0);
+  }
+  H5Fclose(file);
+}
