@@ -1,4 +1,5 @@
 #include "cli/command.hpp"
+#include "cli/short_waits.hpp"
 #include "core/check.hpp"
 #include "workflows/engine/program_version.hpp"
 
@@ -47,6 +48,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  flowslide::cli::prefer_short_waits(argv);
   try {
     return run(argc, argv);
   } catch (const flowslide::Error& e) {
