@@ -165,3 +165,17 @@ TEST_CASE("records are measured as text and as JSON", "[cli]") {
   CHECK(call(scratch, "motion b.csv --unit g").code == 2);
   CHECK(call(scratch, "motion b.csv --unit g --dt 0.01s").code == 0);
 }
+
+TEST_CASE("the committed manual pages are those of the program", "[cli]") {
+  const Scratch scratch;
+  REQUIRE(call(scratch, "docs pages").code == 0);
+  int pages = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(scratch / "pages")) {
+    const std::string name = entry.path().filename().string();
+    INFO("build/release/flowslide docs docs/reference writes " << name);
+    CHECK(read_text_file(entry.path()) ==
+          read_text_file(std::filesystem::path(FLOWSLIDE_SOURCE) / "docs/reference" / name));
+    ++pages;
+  }
+  CHECK(pages >= 5);
+}
