@@ -18,10 +18,10 @@ PM4Sand::Constants PM4Sand::constants(const Params& p) {
   validate(p.emax > p.emin,
            "pm4sand: emax {} is not above emin {} (the void ratio falls with density) swap them?",
            p.emax, p.emin);
-  validate(p.Q > std::log(100.0),
-           "pm4sand: Q = {} puts the critical state below one atmosphere (the state index is then "
-           "undefined) use a Q above {:.2f}",
-           p.Q, std::log(100.0));
+  validate(p.Q > 5.0,
+           "pm4sand: Q = {} puts the critical state below one atmosphere at any density (the state "
+           "index is then undefined) use a Q of about 10",
+           p.Q);
   Constants c;
   c.G0 = p.G0;
   c.hpo = p.hpo;
@@ -73,16 +73,14 @@ PM4Sand::State PM4Sand::initial_state(const Constants& c, const Stress<2>& sigma
   const Surfaces f = surfaces(c, p, c.Dr);
   s.z_max = c.z_max.value_or(std::min(0.7 * std::exp(-6.1 * f.xi), 20.0));
   const double dense_A_do =
-      f.Mb > 2.0 ? 1.5
-                 : 2.5 * (std::asin(0.5 * f.Mb) - std::asin(0.5 * c.M)) / (f.Mb - f.Md);
+      f.Mb > 2.0 ? 1.5 : 2.5 * (std::asin(0.5 * f.Mb) - std::asin(0.5 * c.M)) / (f.Mb - f.Md);
   s.A_do = c.Ado.value_or(f.xi < 0.0 ? dense_A_do : 1.24);
 
-  const double M_cut = std::max(f.Mb, f.Md);
   const double M_start = kRoot2 * norm(dev) / p;
-  if (M_start > M_cut) {
-    const Deviator inside = (M_cut / M_start) * dev;
+  if (M_start > f.Mb) {
+    const Deviator inside = (f.Mb / M_start) * dev;
     s.held = dev - inside;
-    s.alpha = ((M_cut - c.m) / (M_cut * p)) * inside;
+    s.alpha = ((f.Mb - c.m) / (f.Mb * p)) * inside;
   } else {
     s.alpha = (1.0 / p) * dev;
   }
@@ -98,8 +96,7 @@ Elasticity PM4Sand::elasticity(const Constants& c, const State& s,
   using namespace pm4sand;
   const double p = -0.5 * (sigma[0] + sigma[1]) - s.held_p;
   const Deviator dev = Deviator{-0.5 * (sigma[0] - sigma[1]), -sigma[3]} - s.held;
-  const Surfaces f =
-      surfaces(c, std::max(p, s.p_min), relative_density(c, s.void_ratio));
+  const Surfaces f = surfaces(c, std::max(p, s.p_min), relative_density(c, s.void_ratio));
   const Moduli e = moduli(c, s, f, p, dev);
   return {e.K, e.G};
 }
@@ -142,8 +139,8 @@ void Schema<PM4Sand::Params>::describe(FieldVisitor& v, PM4Sand::Params& p) {
              "smallest elastic-modulus factor after shaking; left out: 0.03 exp(2.6 Dr)");
   v.quantity("p_sedo", p.p_sedo, Dim::stress, positive,
              "mean stress up to which the modulus is lowered after shaking; left out: P_atm/5");
-  v.quantity("max_strain_increment", p.max_strain_increment, Dim::none,
-             {.min = 1e-8, .max = 1.0}, "largest strain component of a sub-step");
+  v.quantity("max_strain_increment", p.max_strain_increment, Dim::none, {.min = 1e-8, .max = 1.0},
+             "largest strain component of a sub-step");
   v.quantity("tolerance", p.tolerance, Dim::none, {.max = 1.0, .above = 0.0},
              "stress error of a sub-step relative to the stress; larger errors halve the sub-step");
 }

@@ -45,7 +45,8 @@ struct Surfaces {
 
 /// Eqs (2), (3).
 inline Surfaces surfaces(const PM4Sand::Constants& c, double p, double Dr) {
-  const double xi = c.R / (c.Q - std::log(100.0 * p / c.P_atm)) - Dr;
+  const double depth = std::max(c.Q - std::log(100.0 * p / c.P_atm), 0.1);
+  const double xi = c.R / depth - Dr;
   const bool dense = xi <= 0.0;
   return {xi, c.M * std::exp(-(dense ? c.nb : 0.25 * c.nb) * xi),
           c.M * std::exp((dense ? c.nd : 4.0 * c.nd) * xi)};

@@ -113,13 +113,13 @@ void reverse(State& s, double p, const Deviator& n) {
 
 class Integration {
  public:
-  Integration(const Constants& c, const State& s, const Point& start)
-      : c_(c), s_(s), at_(start) {}
+  Integration(const Constants& c, const State& s, const Point& start) : c_(c), s_(s), at_(start) {}
 
   void run(const Strain& whole, double size) {
     const double equal = std::ceil(size / c_.max_strain_increment * (1.0 - 1e-9));
     const double largest = 1.0 / std::clamp(equal, 1.0, kMaxSubSteps);
-    const double smallest = std::min(largest, std::max(kSmallestIncrement / size, 1.0 / kMaxSubSteps));
+    const double smallest =
+        std::min(largest, std::max(kSmallestIncrement / size, 1.0 / kMaxSubSteps));
     double done = 0.0, dT = largest;
     while (done < 1.0) {
       const double left = 1.0 - done;
@@ -162,16 +162,15 @@ class Integration {
     Mb_ = start.surfaces.Mb;
     // G follows sqrt(p): what an elastic step with the modulus of its start misses
     const double size = 2.0 * std::max(stress_norm(at_), s_.p_min);
-    const double elastic_error = a * std::abs(trial.p) / (2.0 * std::max(at_.p, s_.p_min)) *
-                                 a * std::sqrt(2.0 * trial.p * trial.p + dot(trial.s, trial.s)) / size;
+    const double elastic_error = a * std::abs(trial.p) / (2.0 * std::max(at_.p, s_.p_min)) * a *
+                                 std::sqrt(2.0 * trial.p * trial.p + dot(trial.s, trial.s)) / size;
     if (a == 1.0) {
       next_ = from;
       return next_.p > 0.0 || forced ? elastic_error : 1.0;
     }
     const Strain rest{(1.0 - a) * step.volumetric, (1.0 - a) * step.deviator};
     const History h = history(c_, s_);
-    const Rates r1 =
-        rates(c_, s_, h, a > 0.0 ? local(c_, s_, Dr, from) : start, from, rest);
+    const Rates r1 = rates(c_, s_, h, a > 0.0 ? local(c_, s_, Dr, from) : start, from, rest);
     const Point middle = moved(from, r1);
     if (!(middle.p > 0.0)) return collapse(from, forced);
     const Local at_middle = local(c_, s_, Dr, middle);
@@ -220,7 +219,6 @@ class Integration {
   State s_;
   Point at_, next_{};
   double Mb_ = 0.0;
-  
 };
 
 }  // namespace
@@ -230,17 +228,18 @@ PM4Sand::Update PM4Sand::update(const Constants& c, const State& old, const Stre
                                 const StrainIncrement<2>& de) noexcept {
   using pm4sand::operator+, pm4sand::operator-;
   const double size = std::max({std::abs(de[0]), std::abs(de[1]), std::abs(de[3])});
-  if (size == 0.0) return {sigma, old};
   const pm4sand::Strain whole{-(de[0] + de[1]), {-0.5 * (de[0] - de[1]), -0.5 * de[3]}};
-  const pm4sand::Point start{
-      -0.5 * (sigma[0] + sigma[1]) - old.held_p,
-      Deviator{-0.5 * (sigma[0] - sigma[1]), -sigma[3]} - old.held, old.alpha, old.z};
+  const pm4sand::Point start{-0.5 * (sigma[0] + sigma[1]) - old.held_p,
+                             Deviator{-0.5 * (sigma[0] - sigma[1]), -sigma[3]} - old.held,
+                             old.alpha, old.z};
   Update r;
-  if (!(std::isfinite(size) && std::isfinite(start.p + start.s.d + start.s.t))) {
+  const double all = start.p + start.s.d + start.s.t + de[0] + de[1] + de[3];
+  if (!std::isfinite(all)) {
     r.stress.v.fill(kUnset);
     r.state = old;
     return r;
   }
+  if (size == 0.0) return {sigma, old};
   pm4sand::Integration run(c, old, start);
   run.run(whole, size);
   const double p = run.point().p + old.held_p;

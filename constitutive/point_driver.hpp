@@ -88,8 +88,8 @@ struct ShearTest {
 /// or when the stress is no longer finite, with the step and the strain.
 ShearTest run_simple_shear(PointUnderTest& point, const SimpleShear& test);
 
-/// First |gamma| >= `strain` in cycles (half a cycle for each reversal before, and the fraction of
-/// the present half cycle by strain travelled); empty if the test never reaches it.
+/// Cycles, counted in halves by reversals, before |gamma| first reaches `strain`; empty if it never
+/// does.
 std::optional<double> cycles_to_strain(const ShearTest& test, double strain);
 
 /// r_u = 1 - sigma'_v/sigma'_v0 of a record.
