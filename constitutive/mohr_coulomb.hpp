@@ -30,7 +30,7 @@ struct MohrCoulomb {
   struct StateOf {
     T plastic_strain = 0.0;  ///< accumulated eps_q^p [-]
     T gap = 0.0;             ///< opened volumetric strain [-]
-    T pore_pressure = 0.0;   ///< u [Pa], constant; effective = total + u
+    T pore_pressure = 0.0;   ///< u [Pa] of the soil without a gap; effective = total + u
   };
   using State = StateOf<double>;
   static constexpr std::array<std::string_view, 3> state_names{"plastic_strain", "gap",
@@ -89,7 +89,8 @@ struct MohrCoulomb {
     StrainIncrement<Dim, T> strain = de;
     for (int i = 0; i < 3; ++i) strain[i] -= (volumetric - step.volumetric) * (1.0 / 3.0);
     Stress<Dim, T> trial = hooke(c.elastic, sigma, strain);
-    for (int i = 0; i < 3; ++i) trial[i] += old.pore_pressure;
+    const T u_old = present_pore_pressure(c, old.pore_pressure, old.gap);
+    for (int i = 0; i < 3; ++i) trial[i] += u_old;
 
     // (ii), (iii) return in principal axes with the strength at the start of the step
     const MohrCoulombSurface<T> y = surface(c, old);
@@ -104,17 +105,24 @@ struct MohrCoulomb {
       opened = select(r.s3 >= y.tension, max(T(0.0), mean) * (1.0 / c.elastic.bulk), T(0.0));
       return Sorted3<T>{r.s1, r.s2, r.s3};
     });
-    for (int i = 0; i < 3; ++i) returned[i] -= old.pore_pressure;
-
     StressUpdate<StateOf<T>, Dim, T> r;
-    r.stress = returned;
     r.state = old;
     r.state.plastic_strain = old.plastic_strain + deviatoric;
     r.state.gap = step.gap + opened;
+    const T u_new = present_pore_pressure(c, old.pore_pressure, r.state.gap);
+    for (int i = 0; i < 3; ++i) returned[i] -= u_new;
+    r.stress = returned;
     return r;
   }
 
  private:
+  /// Water does not push soil apart for ever: where a gap opens, u falls with the opened volume and
+  /// returns when the gap closes. With u held, soil at the apex is a gas of constant pressure.
+  template <class T>
+  static T present_pore_pressure(const Constants& c, T pore_pressure, T gap) noexcept {
+    const T left = max(T(0.0), pore_pressure - c.elastic.bulk * gap);
+    return select(gap > T(0.0), min(pore_pressure, left), pore_pressure);
+  }
   /// sin on [0, 1] to 1e-15 by its Taylor series: the library's does not run on eight lanes.
   template <class T>
   static T sine(T x) noexcept {

@@ -90,7 +90,7 @@ inline void store_pack(double* to, Pack x, int count) {
 inline Pack gather_pack(const double* from, const std::int32_t* index) {
 #if defined(__AVX512F__)
   const __m256i at = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(index));
-  return Pack(Pack::Vector(_mm512_i32gather_pd(at, from, 8)));
+  return Pack(Pack::Vector(_mm512_mask_i32gather_pd(_mm512_setzero_pd(), 0xff, at, from, 8)));
 #else
   Pack r;
   for (int i = 0; i < Pack::lanes; ++i) r.v[i] = from[index[i]];

@@ -12,6 +12,9 @@ struct QuadraticBSpline {
   static constexpr double affine_moment = 0.25;  ///< D / h^2 of APIC
   static constexpr double gradient_bound =
       6.0;  ///< largest sum |grad w|^2 / w per direction [1/h^2]
+  /// The same with the affine field fed back, 2 S - 4 (docs/theory/time-step.md): what bounds the
+  /// step.
+  static constexpr double affine_bound = 8.0;
   /// Lowest node of the support of a point at `x` [cells].
   template <class T>
   static T base(T x) noexcept {
@@ -37,6 +40,8 @@ struct Linear {
   static constexpr double affine_moment = 0.25;  ///< not constant for linear functions; see g2p.hpp
   static constexpr double gradient_bound =
       16.0;  ///< at 1/16 of a cell from a node; unbounded nearer
+  static constexpr double affine_bound =
+      16.0;  ///< the affine field of hat functions is their gradient
   template <class T>
   static T base(T x) noexcept {
     return floor(x);

@@ -1,5 +1,7 @@
 #include "mpm/binning.hpp"
 
+#include "core/check.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -9,6 +11,7 @@ namespace {
 
 // 20 bits of block coordinate per direction around zero, 3 bits less than a double holds exactly.
 constexpr std::int64_t kBits = 20, kHalf = std::int64_t{1} << (kBits - 1);
+constexpr double kFarthest = double(kHalf - 2);  // room for the neighbours of a block
 
 template <int Dim>
 std::int64_t pack(const Coordinate<Dim>& c) {
@@ -76,6 +79,13 @@ void bin_points(Points<Dim>& p, Grid<Dim>& grid, Tiling<Dim>& tiling, double bas
     Coordinate<Dim> block{};
     for (int d = 0; d < Dim; ++d) {
       const double base = std::floor((p.x[d][i] - grid.origin[d]) * inverse - basis_shift);
+      if (!(std::abs(base) < kFarthest * kBlockWidth<Dim>)) {
+        throw NumericsError(
+            fmt::format("particle {} (counted from 0 in order of id) has left for {:.3g} m "
+                        "(farther than the grid can "
+                        "number) check its stress, its velocity and the strength of its material",
+                        p.index[i], p.x[d][i]));
+      }
       block[d] = static_cast<std::int32_t>(std::floor(base / kBlockWidth<Dim>));
     }
     scratch.key[i] = pack<Dim>(block);

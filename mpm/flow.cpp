@@ -25,10 +25,14 @@ double seconds_since(Clock::time_point t) {
 }
 
 void advance_once(mpm::Simulation<2>& s, Scratch& scratch, TransferScheme scheme) {
-  if (scheme == TransferScheme::apic)
-    mpm::advance<2, Basis, mpm::Transfer::apic>(s, scratch);
-  else
-    mpm::advance<2, Basis, mpm::Transfer::tpic>(s, scratch);
+  switch (scheme) {
+    case TransferScheme::apic:
+      return mpm::advance<2, Basis, mpm::Transfer::apic>(s, scratch);
+    case TransferScheme::tpic:
+      return mpm::advance<2, Basis, mpm::Transfer::tpic>(s, scratch);
+    case TransferScheme::aflip:
+      return mpm::advance<2, Basis, mpm::Transfer::aflip>(s, scratch);
+  }
 }
 
 /// The history keeps particles in order of id; the solver's `index` refers to that order.

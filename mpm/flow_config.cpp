@@ -41,7 +41,7 @@ void Schema<GroundSettings>::describe(FieldVisitor& v, GroundSettings& c) {
 }
 
 void Schema<FlowConfig>::describe(FieldVisitor& v, FlowConfig& c) {
-  static constexpr std::array<std::string_view, 2> transfers{"apic", "tpic"};
+  static constexpr std::array<std::string_view, 3> transfers{"apic", "tpic", "aflip"};
   static constexpr std::array<std::string_view, 2> averages{"auto", "off"};
   v.quantity("cell", c.cell, Dim::length, {.above = 0.0}, "size of the square grid cells");
   v.tuple("grid_origin", c.grid_origin, Dim::length, "position of a grid node");
@@ -55,7 +55,11 @@ void Schema<FlowConfig>::describe(FieldVisitor& v, FlowConfig& c) {
   v.quantity("right_roller", c.right_roller, Dim::length, {},
              "x of a vertical frictionless wall downstream");
   v.group("softening", c.softening, Schema<SofteningSettings>::doc);
-  v.choice("transfer", c.transfer, transfers, "velocity transfer between grid and points");
+  v.choice("transfer", c.transfer, transfers,
+           "velocity transfer between grid and points: apic and tpic lose sub-grid motion every "
+           "step (a viscosity like h^2/dt), aflip at a rate of its own");
+  v.quantity("relaxation", c.relaxation, Dim::time, {.above = 0.0},
+             "with transfer aflip: time constant with which points take up the grid's velocity");
   v.choice("volume_average", c.volume_average, averages,
            "F-bar against volumetric locking: auto averages materials with Poisson's ratio of 0.4 "
            "or more");

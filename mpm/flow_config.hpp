@@ -9,7 +9,7 @@
 /// Settings of a runout. docs/theory/mpm.md
 namespace flowslide {
 
-enum class TransferScheme { apic, tpic };
+enum class TransferScheme { apic, tpic, aflip };
 enum class VolumeAverage { automatic, off };
 
 struct SofteningSettings {
@@ -38,6 +38,7 @@ struct FlowConfig {
   std::optional<double> right_roller;  ///< x [m]
   SofteningSettings softening;
   TransferScheme transfer = TransferScheme::apic;
+  double relaxation = 0.3;  ///< of aflip [s]
   VolumeAverage volume_average = VolumeAverage::automatic;
   double gravity = 9.81;  ///< [m/s2]
   double courant = 0.9;

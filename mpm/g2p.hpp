@@ -6,6 +6,7 @@
 #include "mpm/volume_average.hpp"
 
 /// Grid to particle: velocity, affine field, velocity gradient and new position.
+/// `keep` is the share of its own velocity a point keeps in a step with aflip.
 /// v = sum w v_i;  C = D^-1 sum w v_i (x_i - x_p)^T;  L = sum v_i grad w;  x += dt sum w v_i.
 namespace flowslide::mpm {
 
@@ -16,18 +17,28 @@ struct TileScratch {
   SpanScratch average;
 };
 
-enum class Transfer { apic, tpic };
+/// How points get their velocity from the grid; all keep an affine velocity field.
+/// apic, tpic: the grid's velocity itself; noise and sub-grid motion are lost every step, a
+/// viscosity that grows like h^2/dt. aflip: the point's own velocity plus the grid's change,
+/// relaxed towards the grid's velocity with a time constant, so that the loss does not depend on
+/// dt.
+enum class Transfer { apic, tpic, aflip };
 
 template <int Dim, class Basis, Transfer kTransfer>
 void gather_tile(Points<Dim>& p, const Tile<Dim>& tile, const Grid<Dim>& grid, double dt,
-                 TileScratch<Dim>& scratch) {
+                 double keep, TileScratch<Dim>& scratch) {
   constexpr int N = Basis::nodes, W = kLocalWidth<Dim, Basis>, B = kBlockWidth<Dim>;
   using L = NodeLayout<Dim>;
+  constexpr bool kFlip = kTransfer == Transfer::aflip;
   double v[Dim][power<Dim>(W)];
+  double change[kFlip ? Dim : 1][kFlip ? power<Dim>(W) : 1];
   for_each_row<Dim, W>(tile, [&](int to, std::int32_t block, int from, int count) {
     const Node* source = grid.nodes.data() + std::size_t(block) * kBlockNodes<Dim> + from;
     for (int i = 0; i < count; ++i)
       for (int d = 0; d < Dim; ++d) v[d][to + i] = source[i].q[L::momentum + d];
+    if constexpr (kFlip)
+      for (int i = 0; i < count; ++i)
+        for (int d = 0; d < Dim; ++d) change[d][to + i] = source[i].q[L::force + d];
   });
 
   const double h = grid.h, inverse = 1.0 / h;
@@ -99,7 +110,18 @@ void gather_tile(Points<Dim>& p, const Tile<Dim>& tile, const Grid<Dim>& grid, d
                                                    : affine * h * (moment[d][e] + r[e] * u[d]);
         store_pack(p.c[Dim * d + e].data() + q, c, count);
       });
-      store_pack(p.v[d].data() + q, u[d], count);
+      Pack velocity = u[d];
+      if constexpr (kFlip) {
+        Pack gain = 0.0;
+        unroll<power<Dim>(N)>([&](auto n) {
+          constexpr int i = n % N, j = n / N % N, l = n / (N * N);
+          Pack weight = w[0][i] * w[1][j];
+          if constexpr (Dim == 3) weight *= w[Dim - 1][l];
+          gain += weight * gather_pack(change[d] + (i + W * j + W * W * l), at);
+        });
+        velocity += keep * (load_pack(p.v[d].data() + q, count) + gain - u[d]);
+      }
+      store_pack(p.v[d].data() + q, velocity, count);
       store_pack(p.x[d].data() + q, load_pack(p.x[d].data() + q, count) + dt * u[d], count);
     });
   }

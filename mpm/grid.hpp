@@ -30,7 +30,7 @@ template <int Dim>
 struct NodeLayout {
   static constexpr int mass = 0;
   static constexpr int momentum = 1;     ///< Dim entries; velocity v* after the momentum step
-  static constexpr int force = 1 + Dim;  ///< Dim entries; internal force [N]
+  static constexpr int force = 1 + Dim;  ///< Dim entries; internal force [N], v* - v afterwards
 };
 
 template <int Dim>

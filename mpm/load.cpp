@@ -66,6 +66,7 @@ Simulation<2> make_simulation(const ParticleSet& particles, const FlowConfig& co
   s.settings.courant = config.courant;
   s.settings.velocity_limit = config.velocity_limit;
   s.settings.strain_limit = config.strain_limit;
+  s.settings.relaxation = config.relaxation;
   s.settings.cundall = config.damping;
   s.settings.average_volume = config.volume_average == VolumeAverage::automatic;
   for (const auto& point : config.ground.surface) {

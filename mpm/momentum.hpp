@@ -64,11 +64,15 @@ std::array<double, Dim> constrained(const BoundaryNode<Dim>& node,
   return v;
 }
 
+/// Velocities of a block's nodes before the step [m/s].
+template <int Dim>
+using BlockVelocity = std::array<std::array<double, kBlockNodes<Dim>>, Dim>;
+
 /// Applies the boundary conditions of a block and moves the work of all forces to the constrained
 /// path: over a step a force f does f (v + v*)/2 dt with v* the velocity after constraints.
 template <int Dim>
 void constrain(Grid<Dim>& grid, std::size_t block, const MomentumSettings& s, double mass_floor,
-               GridWork<Dim>& work) noexcept {
+               const BlockVelocity<Dim>& before, GridWork<Dim>& work) noexcept {
   using L = NodeLayout<Dim>;
   Node* nodes = grid.nodes.data() + block * kBlockNodes<Dim>;
   const std::int32_t end = grid.boundary_first[block + 1];
@@ -84,13 +88,11 @@ void constrain(Grid<Dim>& grid, std::size_t block, const MomentumSettings& s, do
     if (!(m > mass_floor)) continue;
     for (int d = 0; d < Dim; ++d) {
       const double change = held[d] - free[d], f = q[L::force + d], weight = m * s.gravity[d];
-      const double start = free[d] - s.dt * (f + weight) / m;  // drag is undone below
-      const double drag = damping_force(s.cundall, f + weight, start);
-      const double before = start - s.dt * drag / m;
+      const double drag = damping_force(s.cundall, f + weight, before[d][local]);
       work.internal_end += s.dt * f * change;
       work.gravity += 0.5 * s.dt * weight * change;
       work.damping += 0.5 * s.dt * drag * change;
-      work.boundary += 0.5 * m * change * (before + held[d]);
+      work.boundary += 0.5 * m * change * (before[d][local] + held[d]);
       work.boundary_impulse[d] += m * change;
       q[L::momentum + d] = held[d];
     }
@@ -102,6 +104,7 @@ GridWork<Dim> update_momentum(Grid<Dim>& grid, std::size_t block, const Momentum
                               double full_mass) noexcept {
   using L = NodeLayout<Dim>;
   GridWork<Dim> work;
+  BlockVelocity<Dim> before;
   Node* nodes = grid.nodes.data() + block * kBlockNodes<Dim>;
   const double floor = kMassFloor * full_mass;
   for (int n = 0; n < kBlockNodes<Dim>; ++n) {
@@ -122,10 +125,14 @@ GridWork<Dim> update_momentum(Grid<Dim>& grid, std::size_t block, const Momentum
       work.damping += drag * path;
       work.gravity_impulse[d] += weight * s.dt;
       work.boundary_impulse[d] += (f + drag) * s.dt;
+      before[d][n] = v;
       q[L::momentum + d] = v_new;
     }
   }
-  constrain(grid, block, s, floor, work);
+  constrain<Dim>(grid, block, s, floor, before, work);
+  for (int n = 0; n < kBlockNodes<Dim>; ++n)
+    for (int d = 0; d < Dim; ++d)
+      nodes[n].q[L::force + d] = nodes[n].q[L::momentum + d] - before[d][n];
   return work;
 }
 

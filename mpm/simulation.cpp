@@ -12,7 +12,7 @@ template <int Dim, class Basis>
 double stable_step(const Simulation<Dim>& s) {
   const double h = s.grid.h;
   const double elastic =
-      2.0 * h / std::sqrt(Dim * Basis::gradient_bound * s.last.max_wave2) * s.settings.courant;
+      2.0 * h / std::sqrt(Dim * Basis::affine_bound * s.last.max_wave2) * s.settings.courant;
   const double speed = std::sqrt(s.last.max_speed2);
   const double advective = s.settings.velocity_limit * h / std::max(speed, 1e-300);
   // The rate of the last step stands for this one.
@@ -53,6 +53,7 @@ void advance(Simulation<Dim>& s, StepScratch<Dim>& scratch) {
   const auto tiles = static_cast<std::int32_t>(s.tiling.tiles.size());
   const auto blocks = static_cast<std::int32_t>(s.grid.blocks.size());
   const MomentumSettings momentum{dt, s.settings.gravity, s.settings.cundall};
+  const double keep = std::exp(-dt / s.settings.relaxation);
   const int threads = static_cast<int>(scratch.tile.size());
 
 #pragma omp parallel num_threads(threads)
@@ -90,7 +91,7 @@ void advance(Simulation<Dim>& s, StepScratch<Dim>& scratch) {
     for (std::int32_t i = 0; i < tiles; ++i) {
       const Tile<Dim>& tile = s.tiling.tiles[i];
       find_spans<Dim, Basis>(s.points, tile, s.grid, mine.average);
-      gather_tile<Dim, Basis, kTransfer>(s.points, tile, s.grid, dt, mine);
+      gather_tile<Dim, Basis, kTransfer>(s.points, tile, s.grid, dt, keep, mine);
       scratch.stress_work[i] = update_stress<Dim>(s.points, tile, runs_of(i), s.materials, dt, mine,
                                                   s.settings.average_volume);
     }
@@ -108,10 +109,11 @@ void advance(Simulation<Dim>& s, StepScratch<Dim>& scratch) {
   ++s.step;
 }
 
-#define FLOWSLIDE_INSTANTIATE(DIM, BASIS)                                                 \
-  template double stable_step<DIM, BASIS>(const Simulation<DIM>&);                        \
-  template void prepare<DIM, BASIS>(Simulation<DIM>&, StepScratch<DIM>&, bool);           \
-  template void advance<DIM, BASIS, Transfer::apic>(Simulation<DIM>&, StepScratch<DIM>&); \
+#define FLOWSLIDE_INSTANTIATE(DIM, BASIS)                                                  \
+  template double stable_step<DIM, BASIS>(const Simulation<DIM>&);                         \
+  template void prepare<DIM, BASIS>(Simulation<DIM>&, StepScratch<DIM>&, bool);            \
+  template void advance<DIM, BASIS, Transfer::aflip>(Simulation<DIM>&, StepScratch<DIM>&); \
+  template void advance<DIM, BASIS, Transfer::apic>(Simulation<DIM>&, StepScratch<DIM>&);  \
   template void advance<DIM, BASIS, Transfer::tpic>(Simulation<DIM>&, StepScratch<DIM>&);
 FLOWSLIDE_INSTANTIATE(2, QuadraticBSpline)
 #undef FLOWSLIDE_INSTANTIATE

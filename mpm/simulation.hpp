@@ -15,6 +15,7 @@ struct StepSettings {
   double courant = 0.9;             ///< share of the stable step of docs/theory/time-step.md
   double velocity_limit = 0.2;      ///< cells the fastest point may cross in a step
   double strain_limit = 0.05;       ///< largest |L| dt aimed at
+  double relaxation = 0.3;          ///< time constant of aflip [s]
   double cundall = 0.0;             ///< local damping [-]
   bool average_volume = true;       ///< F-bar
 };

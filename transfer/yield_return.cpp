@@ -24,7 +24,14 @@ double relative_violation(double strength, double tension_cutoff, const Stress<2
 
 Stress<2> return_mohr_coulomb(const MohrCoulomb::Constants& constants,
                               const MohrCoulomb::State& state, const Stress<2>& total) {
-  return MohrCoulomb::update<2>(constants, state, total, {}).stress;
+  // In effective stress: the transfer keeps u, while the law would let it fall where soil opens.
+  Stress<2> effective = total;
+  for (int i = 0; i < 3; ++i) effective[i] += state.pore_pressure;
+  MohrCoulomb::State dry = state;
+  dry.pore_pressure = 0.0;
+  Stress<2> returned = MohrCoulomb::update<2>(constants, dry, effective, {}).stress;
+  for (int i = 0; i < 3; ++i) returned[i] -= state.pore_pressure;
+  return returned;
 }
 
 Stress<2> return_liquefied(LiquefiedReturn method, double strength, double tension_cutoff,

@@ -44,7 +44,7 @@ TEST_CASE("Friction under water acts on effective stress", "[transfer]") {
   wet.pore_pressure = 60e3;
   // Admissible in total stress, not in effective stress: -10 and -50 kPa.
   const Stress<2> total{{-70e3, -110e3, -70e3, 0.0}};
-  CHECK(relative_violation(MohrCoulomb::surface(c, {}), total) < 0.0);
+  CHECK(relative_violation(MohrCoulomb::surface(c, MohrCoulomb::State{}), total) < 0.0);
   const Stress<2> returned = return_mohr_coulomb(c, wet, total);
   Stress<2> effective = returned;
   for (int i = 0; i < 3; ++i) effective[i] += wet.pore_pressure;
