@@ -37,7 +37,7 @@ struct MomentumSettings {
 
 /// Nodes lighter than this share of a full cell's mass carry no velocity: their quotient is noise,
 /// and the points near them weigh them with w -> 0 anyway.
-inline constexpr double kMassFloor = 1e-12;
+inline constexpr double kMassFloor = 1e-18;
 
 /// Local non-viscous damping opposes the motion with a share of the force (Cundall 1987).
 inline double damping_force(double factor, double force, double velocity) noexcept {

@@ -10,7 +10,7 @@ namespace {
 constexpr std::string_view kText = "a: {b: 1 m}\nlist: [{x: 1}, 2]\nnone:\n";
 }
 
-TEST_CASE("--set replaces, creates and removes values", "[config]") {
+TEST_CASE("An override of --set replaces, creates and removes values", "[config]") {
   const YamlFile file(kText);
   const std::vector<std::string> options = {"a.c.d=5 m",   "list.0.x=[1, 2]", "list.1=7", "n=x=y",
                                             "none.deep=1", "a.b=null",        "gone.x=~"};

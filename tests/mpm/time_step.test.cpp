@@ -111,7 +111,7 @@ TEST_CASE("The time step stays below the limit of any layout of points", "[mpm]"
     REQUIRE(dt <= limit * (1.0 + 1e-12));
     tightest = std::max(tightest, dt / limit);
   }
-  CHECK(tightest > 0.6);  // safe, but not by waste
+  CHECK(tightest > 0.5);  // safe, but not by waste: 0.866 of it is for lone points with APIC
 }
 
 TEST_CASE("Beyond its limit the scheme diverges, below it does not", "[mpm]") {
