@@ -62,7 +62,7 @@ Json inspect_particles(const fs::path& path) {
   j["volume_m3"] = volume;
   for (const MaterialSpec& material : particles.materials) j["materials"].push_back(material.name);
   for (const auto& [name, values] : particles.history) j["quantities"].push_back(name);
-  j["problems"] = Json::array();
+  j["problems"] = particles.notes;
   return j;
 }
 
