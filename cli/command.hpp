@@ -17,6 +17,8 @@ void add_check(CLI::App& app, Command& action);
 void add_inspect(CLI::App& app, Command& action);
 void add_motion(CLI::App& app, Command& action);
 void add_report(CLI::App& app, Command& action);
+void add_verify(CLI::App& app, Command& action);
+void add_bench(CLI::App& app, Command& action);
 void add_schema(CLI::App& app, Command& action);
 void add_docs(CLI::App& app, Command& action);
 

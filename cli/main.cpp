@@ -30,6 +30,8 @@ int run(int argc, char** argv) {
   flowslide::cli::add_inspect(app, action);
   flowslide::cli::add_motion(app, action);
   flowslide::cli::add_report(app, action);
+  flowslide::cli::add_verify(app, action);
+  flowslide::cli::add_bench(app, action);
   flowslide::cli::add_schema(app, action);
   flowslide::cli::add_docs(app, action);
   try {

@@ -166,6 +166,19 @@ TEST_CASE("records are measured as text and as JSON", "[cli]") {
   CHECK(call(scratch, "motion b.csv --unit g --dt 0.01s").code == 0);
 }
 
+TEST_CASE("verification cases and benchmarks are listed and chosen by name", "[cli]") {
+  const Scratch scratch;
+  const Outcome list = call(scratch, "verify mpm --list");
+  CHECK(list.code == 0);
+  CHECK_THAT(list.out, Contains("mpm/v1_compaction"));
+  CHECK(call(scratch, "verify mpn").code == 2);
+  const Outcome run = call(scratch, "verify mpm/v1_mirror --json");
+  CHECK(run.code == 0);
+  CHECK_THAT(run.out, Contains("\"name\": \"mpm/v1_mirror/error_40_cells\"") && Contains("core_seconds"));
+  CHECK(call(scratch, "bench --list").code == 0);
+  CHECK(call(scratch, "bench no_such").code == 2);
+}
+
 TEST_CASE("the committed manual pages are those of the program", "[cli]") {
   const Scratch scratch;
   REQUIRE(call(scratch, "docs pages").code == 0);

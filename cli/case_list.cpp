@@ -1,0 +1,23 @@
+#include "cli/case_list.hpp"
+
+#include "mpm/verify/cases.hpp"
+
+namespace flowslide::cli {
+namespace {
+
+template <class T>
+void append(std::vector<T>& list, std::vector<T> more) {
+  list.insert(list.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+std::vector<VerificationCase> all_verification_cases() {
+  std::vector<VerificationCase> cases;
+  append(cases, mpm_cases());
+  return cases;
+}
+
+std::vector<BenchCase> all_benchmarks() { return {}; }
+
+}  // namespace flowslide::cli

@@ -1,0 +1,52 @@
+#include "core/benchmark.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace flowslide {
+
+std::vector<BenchCase> select(std::span<const BenchCase> cases,
+                              std::span<const std::string> names) {
+  const auto fits = [](const BenchCase& c, const std::string& name) {
+    return c.name.starts_with(name) || name.starts_with(c.name + "/");
+  };
+  for (const std::string& name : names) {
+    validate(std::any_of(cases.begin(), cases.end(), [&](const auto& c) { return fits(c, name); }),
+             "there is no benchmark '{}' (nothing would be measured) 'flowslide bench --list' "
+             "lists them",
+             name);
+  }
+  std::vector<BenchCase> chosen;
+  for (const BenchCase& c : cases) {
+    if (names.empty() ||
+        std::any_of(names.begin(), names.end(), [&](const auto& n) { return fits(c, n); }))
+      chosen.push_back(c);
+  }
+  return chosen;
+}
+
+std::string measurements_json(std::span<const Measurement> measurements) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Measurement& m : measurements) {
+    nlohmann::ordered_json entry = {{"name", m.name},
+                                    {"value", m.value},
+                                    {"unit", m.unit},
+                                    {"better", m.better == Better::higher ? "higher" : "lower"}};
+    for (const auto& [key, value] : m.numbers) entry[key] = value;
+    for (const auto& [key, value] : m.texts) entry[key] = value;
+    list.push_back(std::move(entry));
+  }
+  return list.dump(1);
+}
+
+std::string measurement_heading() {
+  return fmt::format("{:<48} {:>10} {:<18}", "benchmark", "value", "unit");
+}
+
+std::string measurement_row(const Measurement& m) {
+  return fmt::format("{:<48} {:>10.4g} {}", m.name, m.value, m.unit);
+}
+
+}  // namespace flowslide
