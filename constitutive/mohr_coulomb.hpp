@@ -95,16 +95,20 @@ struct MohrCoulomb {
     // (ii), (iii) return in principal axes with the strength at the start of the step
     const MohrCoulombSurface<T> y = surface(c, old);
     T deviatoric = 0.0, opened = 0.0;
-    Stress<Dim, T> returned = map_principal(trial, [&](const Sorted3<T>& t) noexcept {
-      const Principal<T> r = return_to_mohr_coulomb(c.elastic, y, Principal<T>{t.hi, t.mid, t.lo});
-      const T d1 = t.hi - r.s1, d2 = t.mid - r.s2, d3 = t.lo - r.s3;
-      const T mean = (d1 + d2 + d3) * (1.0 / 3.0);
-      const T e1 = d1 - mean, e2 = d2 - mean, e3 = d3 - mean;
-      deviatoric = sqrt(2.0 / 3.0 * (e1 * e1 + e2 * e2 + e3 * e3)) * (0.5 / c.elastic.shear);
-      // Only what opens at the tension corner closes again; dilation of shear does not.
-      opened = select(r.s3 >= y.tension, max(T(0.0), mean) * (1.0 / c.elastic.bulk), T(0.0));
-      return Sorted3<T>{r.s1, r.s2, r.s3};
-    });
+    Stress<Dim, T> returned = trial;
+    // Principal axes in 3D cost more than all the rest.
+    if (Dim == 2 || !all(surely_elastic(y, trial)))
+      returned = map_principal(trial, [&](const Sorted3<T>& t) noexcept {
+        const Principal<T> r =
+            return_to_mohr_coulomb(c.elastic, y, Principal<T>{t.hi, t.mid, t.lo});
+        const T d1 = t.hi - r.s1, d2 = t.mid - r.s2, d3 = t.lo - r.s3;
+        const T mean = (d1 + d2 + d3) * (1.0 / 3.0);
+        const T e1 = d1 - mean, e2 = d2 - mean, e3 = d3 - mean;
+        deviatoric = sqrt(2.0 / 3.0 * (e1 * e1 + e2 * e2 + e3 * e3)) * (0.5 / c.elastic.shear);
+        // Only what opens at the tension corner closes again; dilation of shear does not.
+        opened = select(r.s3 >= y.tension, max(T(0.0), mean) * (1.0 / c.elastic.bulk), T(0.0));
+        return Sorted3<T>{r.s1, r.s2, r.s3};
+      });
     StressUpdate<StateOf<T>, Dim, T> r;
     r.state = old;
     r.state.plastic_strain = old.plastic_strain + deviatoric;
@@ -122,6 +126,13 @@ struct MohrCoulomb {
   static T present_pore_pressure(const Constants& c, T pore_pressure, T gap) noexcept {
     const T left = max(T(0.0), pore_pressure - c.elastic.bulk * gap);
     return select(gap > T(0.0), min(pore_pressure, left), pore_pressure);
+  }
+  /// True only inside the surface; from invariants alone, s1 <= p + 2 tau/sqrt(3) and
+  /// s1 - s3 <= 2 tau with tau = sqrt(J2).
+  template <int Dim, class T>
+  static auto surely_elastic(const MohrCoulombSurface<T>& y, const Stress<Dim, T>& s) noexcept {
+    const T tau = sqrt(j2(s)), highest = mean_stress(s) + 1.1547005383792517 * tau;
+    return (y.k - 1.0) * highest + 2.0 * tau <= y.sigma_c && highest <= y.tension;
   }
   /// sin on [0, 1] to 1e-15 by its Taylor series: the library's does not run on eight lanes.
   template <class T>

@@ -13,7 +13,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using Scratch = mpm::StepScratch<2>;
-using Basis = mpm::QuadraticBSpline;
 
 constexpr double kCheckpointSeconds = 15.0;  ///< wall time between checkpoints
 constexpr double kReportSeconds = 0.2;       ///< wall time between progress reports
@@ -22,17 +21,6 @@ constexpr double kDtCollapse = 1e-5;
 
 double seconds_since(Clock::time_point t) {
   return std::chrono::duration<double>(Clock::now() - t).count();
-}
-
-void advance_once(mpm::Simulation<2>& s, Scratch& scratch, TransferScheme scheme) {
-  switch (scheme) {
-    case TransferScheme::apic:
-      return mpm::advance<2, Basis, mpm::Transfer::apic>(s, scratch);
-    case TransferScheme::tpic:
-      return mpm::advance<2, Basis, mpm::Transfer::tpic>(s, scratch);
-    case TransferScheme::aflip:
-      return mpm::advance<2, Basis, mpm::Transfer::aflip>(s, scratch);
-  }
 }
 
 /// The history keeps particles in order of id; the solver's `index` refers to that order.
@@ -76,7 +64,7 @@ FlowFacts run_flow(const ParticleSet& particles, const FlowConfig& config, const
   mpm::RunState run;
   const bool resume = std::filesystem::exists(paths.checkpoint);
   if (resume) mpm::read_checkpoint(paths.checkpoint, s, run);
-  mpm::prepare<2, Basis>(s, scratch, !resume);
+  mpm::prepare(s, scratch, !resume);
   if (!resume) {
     const mpm::PointSums<2> start = mpm::sum_points(s);
     run.mass_start = start.mass;
@@ -84,7 +72,7 @@ FlowFacts run_flow(const ParticleSet& particles, const FlowConfig& config, const
     run.potential_start = start.potential;
     run.recoverable_start = start.recoverable;
     run.momentum_start = start.momentum;
-    run.first_dt = mpm::stable_step<2, Basis>(s);
+    run.first_dt = mpm::stable_step(s);
   }
   mpm::Reference<2> reference{{run.mass_start, run.kinetic_start, run.potential_start,
                                run.recoverable_start, run.momentum_start, true, -1},
@@ -118,7 +106,7 @@ FlowFacts run_flow(const ParticleSet& particles, const FlowConfig& config, const
   const std::int64_t first_step = s.step;
   facts.last.time = s.time;
   for (bool done = false; !done;) {
-    advance_once(s, scratch, config.transfer);
+    mpm::advance(s, scratch);
     check_step(s, run.first_dt);
     done = s.time >= config.end;
     if (s.time >= run.next_sample || done) {

@@ -41,7 +41,10 @@ void Schema<GroundSettings>::describe(FieldVisitor& v, GroundSettings& c) {
 }
 
 void Schema<FlowConfig>::describe(FieldVisitor& v, FlowConfig& c) {
-  static constexpr std::array<std::string_view, 3> transfers{"apic", "tpic", "aflip"};
+  static constexpr std::array<std::string_view, 4> bases{"linear", "gimp", "quadratic", "cubic"};
+  static constexpr std::array<std::string_view, 6> transfers{"apic", "tpic", "aflip",
+                                                             "flip", "pic",  "fmpm"};
+  static constexpr std::array<std::string_view, 3> updates{"symplectic", "usf", "musl"};
   static constexpr std::array<std::string_view, 2> averages{"auto", "off"};
   v.quantity("cell", c.cell, Dim::length, {.above = 0.0}, "size of the square grid cells");
   v.tuple("grid_origin", c.grid_origin, Dim::length, "position of a grid node");
@@ -55,11 +58,23 @@ void Schema<FlowConfig>::describe(FieldVisitor& v, FlowConfig& c) {
   v.quantity("right_roller", c.right_roller, Dim::length, {},
              "x of a vertical frictionless wall downstream");
   v.group("softening", c.softening, Schema<SofteningSettings>::doc);
+  v.choice("basis", c.basis, bases,
+           "shape functions: quadratic and cubic B-splines, gimp for points of half a cell, or "
+           "linear, whose step is not safe for lone points");
   v.choice("transfer", c.transfer, transfers,
            "velocity transfer between grid and points: apic and tpic lose sub-grid motion every "
-           "step (a viscosity like h^2/dt), aflip at a rate of its own");
+           "step (a viscosity like h^2/dt), aflip at a rate of its own, flip and fmpm by their "
+           "share and order, pic at once");
   v.quantity("relaxation", c.relaxation, Dim::time, {.above = 0.0},
              "with transfer aflip: time constant with which points take up the grid's velocity");
+  v.quantity("flip_share", c.flip_share, Dim::none, {.min = 0.0, .max = 1.0},
+             "with transfer flip: share of its own velocity that a point keeps in a step");
+  v.integer("fmpm_order", c.fmpm_order, {.min = 1.0, .max = 4.0},
+            "with transfer fmpm: terms of the series of the inverse of the full mass matrix");
+  v.choice("update", c.update, updates,
+           "when stress is updated: after the momentum balance from the grid's new velocities "
+           "(symplectic), before it (usf), or from the points' new velocities mapped to the grid "
+           "once more (musl, one sweep more)");
   v.choice("volume_average", c.volume_average, averages,
            "F-bar against volumetric locking: auto averages materials with Poisson's ratio of 0.4 "
            "or more");

@@ -1,5 +1,6 @@
 #pragma once
 #include "config/schema.hpp"
+#include "mpm/scheme.hpp"
 
 #include <array>
 #include <optional>
@@ -9,7 +10,6 @@
 /// Settings of a runout. docs/theory/mpm.md
 namespace flowslide {
 
-enum class TransferScheme { apic, tpic, aflip };
 enum class VolumeAverage { automatic, off };
 
 struct SofteningSettings {
@@ -37,8 +37,12 @@ struct FlowConfig {
   std::optional<double> left_roller;   ///< x [m]
   std::optional<double> right_roller;  ///< x [m]
   SofteningSettings softening;
-  TransferScheme transfer = TransferScheme::apic;
+  mpm::BasisKind basis = mpm::BasisKind::quadratic;
+  mpm::Transfer transfer = mpm::Transfer::apic;
+  mpm::Update update = mpm::Update::symplectic;
   double relaxation = 0.3;  ///< of aflip [s]
+  double flip_share = 0.99;
+  int fmpm_order = 2;
   VolumeAverage volume_average = VolumeAverage::automatic;
   double gravity = 9.81;  ///< [m/s2]
   double courant = 0.9;

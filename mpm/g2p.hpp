@@ -1,12 +1,9 @@
 #pragma once
-#include "core/unroll.hpp"
-#include "mpm/basis.hpp"
 #include "mpm/local_grid.hpp"
-#include "mpm/points.hpp"
+#include "mpm/stencil.hpp"
 #include "mpm/volume_average.hpp"
 
 /// Grid to particle: velocity, affine field, velocity gradient and new position.
-/// `keep` is the share of its own velocity a point keeps in a step with aflip.
 /// v = sum w v_i;  C = D^-1 sum w v_i (x_i - x_p)^T;  L = sum v_i grad w;  x += dt sum w v_i.
 namespace flowslide::mpm {
 
@@ -14,115 +11,183 @@ namespace flowslide::mpm {
 template <int Dim>
 struct TileScratch {
   std::array<std::vector<double>, Dim * Dim> gradient;  ///< row-major L [1/s]
+  std::array<std::vector<double>, Dim> velocity;        ///< of fmpm's series [m/s]
   SpanScratch average;
 };
 
-/// How points get their velocity from the grid; all keep an affine velocity field.
-/// apic, tpic: the grid's velocity itself; noise and sub-grid motion are lost every step, a
-/// viscosity that grows like h^2/dt. aflip: the point's own velocity plus the grid's change,
-/// relaxed towards the grid's velocity with a time constant, so that the loss does not depend on
-/// dt.
-enum class Transfer { apic, tpic, aflip };
+/// Components [first, first + Dim) of the nodes around a tile, one array per component.
+template <int Dim, int Width>
+struct Window {
+  double v[Dim][power<Dim>(Width)];
+  void read(const Tile<Dim>& tile, const Node* nodes, int first) noexcept {
+    for_each_row<Dim, Width>(tile, [&](int to, std::int32_t block, int from, int count) {
+      const Node* source = nodes + std::size_t(block) * kBlockNodes<Dim> + from;
+      for (int i = 0; i < count; ++i)
+        for (int d = 0; d < Dim; ++d) v[d][to + i] = source[i].q[first + d];
+    });
+  }
+};
 
+/// Sums over the nodes of a stencil: u = sum w v, moment[e] = sum w v i_e (i_e counted from the
+/// lowest node), gradient[e] = sum v dw/dx_e per cell.
+template <int Dim>
+struct NodeSums {
+  Pack u, moment[Dim], gradient[Dim];
+};
+
+template <int Dim, class Basis>
+[[gnu::always_inline]] inline NodeSums<Dim> sum_nodes(const Stencil<Dim, Basis>& s,
+                                                      const double* v) noexcept {
+  constexpr int N = Basis::nodes, W = kLocalWidth<Dim, Basis>;
+  NodeSums<Dim> r;
+  Pack s_u = 0, s_x = 0, s_y = 0, s_z = 0, g_x = 0, g_y = 0, g_z = 0;
+  unroll<(Dim == 3 ? N : 1)>([&](auto l) {
+    Pack t_u = 0, t_x = 0, t_y = 0, t_gx = 0, t_gy = 0;
+    unroll<N>([&](auto j) {
+      Pack a = 0, ax = 0, ag = 0;
+      unroll<N>([&](auto i) {
+        const Pack vi = gather_pack(v + (i + W * j + (Dim == 3 ? W * W * l : 0)), s.at);
+        const Pack weighted = s.w[0][i] * vi;
+        a += weighted;
+        if constexpr (i > 0) ax += double(i) * weighted;
+        ag += s.g[0][i] * vi;
+      });
+      t_u += s.w[1][j] * a;
+      t_x += s.w[1][j] * ax;
+      t_gx += s.w[1][j] * ag;
+      if constexpr (j > 0) t_y += double(j) * (s.w[1][j] * a);
+      t_gy += s.g[1][j] * a;
+    });
+    if constexpr (Dim == 3) {
+      s_u += s.w[2][l] * t_u;
+      s_x += s.w[2][l] * t_x;
+      s_y += s.w[2][l] * t_y;
+      g_x += s.w[2][l] * t_gx;
+      g_y += s.w[2][l] * t_gy;
+      if constexpr (l > 0) s_z += double(l) * (s.w[2][l] * t_u);
+      g_z += s.g[2][l] * t_u;
+    } else {
+      s_u = t_u, s_x = t_x, s_y = t_y, g_x = t_gx, g_y = t_gy;
+    }
+  });
+  r.u = s_u;
+  r.moment[0] = s_x, r.moment[1] = s_y;
+  r.gradient[0] = g_x, r.gradient[1] = g_y;
+  if constexpr (Dim == 3) r.moment[2] = s_z, r.gradient[2] = g_z;
+  return r;
+}
+
+/// sum w v over the nodes of a stencil.
+template <int Dim, class Basis>
+[[gnu::always_inline]] inline Pack interpolate(const Stencil<Dim, Basis>& s,
+                                               const double* v) noexcept {
+  constexpr int N = Basis::nodes, W = kLocalWidth<Dim, Basis>;
+  Pack sum = 0.0;
+  unroll<power<Dim>(N)>([&](auto n) {
+    constexpr int i = n % N, j = n / N % N, l = n / (N * N);
+    Pack weight = s.w[0][i] * s.w[1][j];
+    if constexpr (Dim == 3) weight *= s.w[Dim - 1][l];
+    sum += weight * gather_pack(v + (i + W * j + W * W * l), s.at);
+  });
+  return sum;
+}
+
+/// `keep` is the share of its own velocity a point keeps in the step with aflip and flip. New
+/// positions go to `moved`, which may be p.x.
 template <int Dim, class Basis, Transfer kTransfer>
 void gather_tile(Points<Dim>& p, const Tile<Dim>& tile, const Grid<Dim>& grid, double dt,
-                 double keep, TileScratch<Dim>& scratch) {
-  constexpr int N = Basis::nodes, W = kLocalWidth<Dim, Basis>, B = kBlockWidth<Dim>;
+                 double keep, std::array<std::vector<double>, Dim>& moved,
+                 TileScratch<Dim>& scratch) {
+  constexpr int W = kLocalWidth<Dim, Basis>;
   using L = NodeLayout<Dim>;
-  constexpr bool kFlip = kTransfer == Transfer::aflip;
-  double v[Dim][power<Dim>(W)];
-  double change[kFlip ? Dim : 1][kFlip ? power<Dim>(W) : 1];
-  for_each_row<Dim, W>(tile, [&](int to, std::int32_t block, int from, int count) {
-    const Node* source = grid.nodes.data() + std::size_t(block) * kBlockNodes<Dim> + from;
-    for (int i = 0; i < count; ++i)
-      for (int d = 0; d < Dim; ++d) v[d][to + i] = source[i].q[L::momentum + d];
-    if constexpr (kFlip)
-      for (int i = 0; i < count; ++i)
-        for (int d = 0; d < Dim; ++d) change[d][to + i] = source[i].q[L::force + d];
-  });
+  constexpr bool kKeep = kTransfer == Transfer::aflip || kTransfer == Transfer::flip;
+  // Hat functions have their gradient as affine field.
+  constexpr bool kGradient = kTransfer == Transfer::tpic ||
+                             (Basis::kind == BasisKind::linear &&
+                              (kTransfer == Transfer::apic || kTransfer == Transfer::aflip));
+  constexpr bool kMoment =
+      !kGradient && (kTransfer == Transfer::apic || kTransfer == Transfer::aflip);
+  Window<Dim, W> velocity;
+  velocity.read(tile, grid.nodes.data(), L::momentum);
+  [[maybe_unused]] std::conditional_t<kKeep, Window<Dim, W>, int> change;
+  if constexpr (kKeep) change.read(tile, grid.nodes.data(), L::force);
 
   const double h = grid.h, inverse = 1.0 / h;
-  const double affine = 1.0 / (Basis::affine_moment * h * h);
-  std::array<double, Dim> corner;
-  for (int d = 0; d < Dim; ++d) corner[d] = tile.block[d] * B - 1.0;
-
+  const std::array<double, Dim> corner = window_corner<Dim>(tile);
   for (std::int32_t q = tile.first; q < tile.last; q += Pack::lanes) {
     const int count = std::min<int>(Pack::lanes, tile.last - q);
-    Pack w[Dim][N], g[Dim][N], r[Dim], index = 0.0;
-    unroll<Dim>([&](auto d) {
-      const Pack position =
-          (load_pack(p.x[d].data() + q, count) - grid.origin[d]) * inverse - corner[d];
-      const Pack base = Basis::base(position);
-      Basis::evaluate(position - base, w[d], g[d]);
-      r[d] = base - position;
-      index += base * double(power<d>(W));
-    });
-    std::int32_t at[Pack::lanes];
-    for (int i = 0; i < Pack::lanes; ++i) at[i] = static_cast<std::int32_t>(index[i]);
-
-    Pack u[Dim], moment[Dim][Dim], gradient[Dim][Dim];
-    unroll<Dim>([&](auto d) {
-      Pack s_u = 0, s_x = 0, s_y = 0, s_z = 0, g_x = 0, g_y = 0, g_z = 0;
-      unroll<(Dim == 3 ? N : 1)>([&](auto l) {
-        Pack t_u = 0, t_x = 0, t_y = 0, t_gx = 0, t_gy = 0;
-        unroll<N>([&](auto j) {
-          Pack a = 0, ax = 0, ag = 0;
-          unroll<N>([&](auto i) {
-            const Pack vi = gather_pack(v[d] + (i + W * j + (Dim == 3 ? W * W * l : 0)), at);
-            const Pack weighted = w[0][i] * vi;
-            a += weighted;
-            if constexpr (i > 0) ax += double(i) * weighted;
-            ag += g[0][i] * vi;
-          });
-          t_u += w[1][j] * a;
-          t_x += w[1][j] * ax;
-          t_gx += w[1][j] * ag;
-          if constexpr (j > 0) t_y += double(j) * (w[1][j] * a);
-          t_gy += g[1][j] * a;
-        });
-        if constexpr (Dim == 3) {
-          s_u += w[2][l] * t_u;
-          s_x += w[2][l] * t_x;
-          s_y += w[2][l] * t_y;
-          g_x += w[2][l] * t_gx;
-          g_y += w[2][l] * t_gy;
-          if constexpr (l > 0) s_z += double(l) * (w[2][l] * t_u);
-          g_z += g[2][l] * t_u;
-        } else {
-          s_u = t_u, s_x = t_x, s_y = t_y, g_x = t_gx, g_y = t_gy;
-        }
-      });
-      u[d] = s_u;
-      moment[d][0] = s_x;
-      moment[d][1] = s_y;
-      gradient[d][0] = g_x * inverse;
-      gradient[d][1] = g_y * inverse;
-      if constexpr (Dim == 3) {
-        moment[d][2] = s_z;
-        gradient[d][2] = g_z * inverse;
-      }
-    });
-    unroll<Dim>([&](auto d) {
+    Stencil<Dim, Basis> s;
+    evaluate_stencil<Dim, Basis>(p, q, count, grid, inverse, corner, s);
+    Pack factor[Dim];  // h / (D h^2)
+    if constexpr (kMoment) {
       unroll<Dim>([&](auto e) {
-        store_pack(scratch.gradient[Dim * d + e].data() + (q - tile.first), gradient[d][e], count);
-        // sum w v (x_i - x_p) = h (moment + r u)
-        const Pack c = kTransfer == Transfer::tpic ? gradient[d][e]
-                                                   : affine * h * (moment[d][e] + r[e] * u[d]);
-        store_pack(p.c[Dim * d + e].data() + q, c, count);
+        if constexpr (Basis::constant_moment)
+          factor[e] = 1.0 / (Basis::affine_moment * h * h) * h;
+        else
+          factor[e] = inverse / s.moment(e);
       });
-      Pack velocity = u[d];
-      if constexpr (kFlip) {
-        Pack gain = 0.0;
-        unroll<power<Dim>(N)>([&](auto n) {
-          constexpr int i = n % N, j = n / N % N, l = n / (N * N);
-          Pack weight = w[0][i] * w[1][j];
-          if constexpr (Dim == 3) weight *= w[Dim - 1][l];
-          gain += weight * gather_pack(change[d] + (i + W * j + W * W * l), at);
-        });
-        velocity += keep * (load_pack(p.v[d].data() + q, count) + gain - u[d]);
+    }
+    unroll<Dim>([&](auto d) {
+      const NodeSums<Dim> sums = sum_nodes<Dim, Basis>(s, velocity.v[d]);
+      unroll<Dim>([&](auto e) {
+        const Pack gradient = sums.gradient[e] * inverse;
+        store_pack(scratch.gradient[Dim * d + e].data() + (q - tile.first), gradient, count);
+        if constexpr (kGradient) store_pack(p.c[Dim * d + e].data() + q, gradient, count);
+        // sum w v (x_i - x_p) = h (moment + r u)
+        if constexpr (kMoment)
+          store_pack(p.c[Dim * d + e].data() + q, factor[e] * (sums.moment[e] + s.r[e] * sums.u),
+                     count);
+      });
+      Pack v = sums.u;
+      if constexpr (kKeep) {
+        const Pack gain = interpolate<Dim, Basis>(s, change.v[d]);
+        v += keep * (load_pack(p.v[d].data() + q, count) + gain - sums.u);
       }
-      store_pack(p.v[d].data() + q, velocity, count);
-      store_pack(p.x[d].data() + q, load_pack(p.x[d].data() + q, count) + dt * u[d], count);
+      store_pack(p.v[d].data() + q, v, count);
+      store_pack(moved[d].data() + q, load_pack(p.x[d].data() + q, count) + dt * sums.u, count);
+    });
+  }
+}
+
+/// L = sum v_i grad w of a tile's points from the velocities in `nodes`, into scratch.gradient.
+template <int Dim, class Basis>
+void gather_gradient(const Points<Dim>& p, const Tile<Dim>& tile, const Grid<Dim>& grid,
+                     const Node* nodes, TileScratch<Dim>& scratch) {
+  constexpr int W = kLocalWidth<Dim, Basis>;
+  Window<Dim, W> velocity;
+  velocity.read(tile, nodes, NodeLayout<Dim>::momentum);
+  const double inverse = 1.0 / grid.h;
+  const std::array<double, Dim> corner = window_corner<Dim>(tile);
+  for (std::int32_t q = tile.first; q < tile.last; q += Pack::lanes) {
+    const int count = std::min<int>(Pack::lanes, tile.last - q);
+    Stencil<Dim, Basis> s;
+    evaluate_stencil<Dim, Basis>(p, q, count, grid, inverse, corner, s);
+    unroll<Dim>([&](auto d) {
+      const NodeSums<Dim> sums = sum_nodes<Dim, Basis>(s, velocity.v[d]);
+      unroll<Dim>([&](auto e) {
+        store_pack(scratch.gradient[Dim * d + e].data() + (q - tile.first),
+                   sums.gradient[e] * inverse, count);
+      });
+    });
+  }
+}
+
+/// sum w v of a tile's points from the velocities in `nodes`, into scratch.velocity.
+template <int Dim, class Basis>
+void interpolate_tile(const Points<Dim>& p, const Tile<Dim>& tile, const Grid<Dim>& grid,
+                      const Node* nodes, TileScratch<Dim>& scratch) {
+  constexpr int W = kLocalWidth<Dim, Basis>;
+  Window<Dim, W> velocity;
+  velocity.read(tile, nodes, NodeLayout<Dim>::momentum);
+  const double inverse = 1.0 / grid.h;
+  const std::array<double, Dim> corner = window_corner<Dim>(tile);
+  for (std::int32_t q = tile.first; q < tile.last; q += Pack::lanes) {
+    const int count = std::min<int>(Pack::lanes, tile.last - q);
+    Stencil<Dim, Basis> s;
+    evaluate_stencil<Dim, Basis>(p, q, count, grid, inverse, corner, s);
+    unroll<Dim>([&](auto d) {
+      store_pack(scratch.velocity[d].data() + (q - tile.first),
+                 interpolate<Dim, Basis>(s, velocity.v[d]), count);
     });
   }
 }

@@ -62,6 +62,11 @@ Simulation<2> make_simulation(const ParticleSet& particles, const FlowConfig& co
   Simulation<2> s;
   s.grid.h = config.cell;
   s.grid.origin = config.grid_origin;
+  s.settings.basis = config.basis;
+  s.settings.transfer = config.transfer;
+  s.settings.update = config.update;
+  s.settings.flip_share = config.flip_share;
+  s.settings.fmpm_order = config.fmpm_order;
   s.settings.gravity = {0.0, -config.gravity, 0.0};
   s.settings.courant = config.courant;
   s.settings.velocity_limit = config.velocity_limit;

@@ -1,8 +1,7 @@
 #pragma once
-#include "core/unroll.hpp"
-#include "mpm/basis.hpp"
 #include "mpm/local_grid.hpp"
-#include "mpm/points.hpp"
+#include "mpm/node_vector.hpp"
+#include "mpm/stencil.hpp"
 
 #include <cstring>
 
@@ -10,98 +9,153 @@
 /// m_i = sum w m;  (mv)_i = sum w m (v + C (x_i - x_p));  f_i = -sum V sigma grad w.
 namespace flowslide::mpm {
 
-/// All sums of a node in one vector register; plain vector extension of GCC and Clang.
-using Vec8 = double __attribute__((vector_size(64), aligned(64)));
-
-inline constexpr int kBatch = Pack::lanes;  ///< points whose weights are evaluated together
-
-/// `mean_change` is added to the normal stresses of each point of the tile: what F-bar does to the
-/// force.
-///
-/// What one point gives to its nodes: node (i,j) receives w (a + i b1 + j b2) + grad w . f.
+/// What goes to the grid beside mass: the points' momentum and force, their momentum alone, or that
+/// of a given velocity without an affine field.
+enum class Scatter { force, momentum, velocity };
 template <int Dim>
-struct Contribution {
-  Vec8 a, b[Dim], f[Dim];
+using TileVelocity = std::array<std::vector<double>, Dim>;  ///< per point of the tile [m/s]
+
+/// What points give to their nodes, one record of node sums per point: node (i, j) receives
+/// w_i w_j (a + i b_0 + j b_1) + g_i w_j f_0 + w_i g_j f_1. The first direction is kept as a (with
+/// f_0 in the lanes of the force) and b_0, the others as b and f in one record.
+template <int Dim>
+struct Contributions {
+  NodeVector a[Pack::lanes], b[Pack::lanes], other[Dim - 1][Pack::lanes];
 };
 
-template <int Dim, class Basis>
-void scatter_tile(const Points<Dim>& p, const Tile<Dim>& tile, const double* mean_change,
-                  Grid<Dim>& grid) noexcept {
-  constexpr int N = Basis::nodes, W = kLocalWidth<Dim, Basis>, B = kBlockWidth<Dim>;
+template <int Dim, class Basis, Scatter kScatter>
+[[gnu::always_inline]] inline void contributions(const Points<Dim>& p, std::int32_t q, int count,
+                                                 const double* mean_change,
+                                                 const double* const* velocity,
+                                                 const Stencil<Dim, Basis>& s, double h,
+                                                 Contributions<Dim>& out) noexcept {
   using L = NodeLayout<Dim>;
-  alignas(64) Vec8 local[power<Dim>(W)];
-  std::memset(local, 0, sizeof local);
-
-  const double h = grid.h, inverse = 1.0 / h;
-  std::array<double, Dim> corner;  // position of the window's first node, in cells
-  for (int d = 0; d < Dim; ++d) corner[d] = tile.block[d] * B - 1.0;
-
-  double w[Dim][N][kBatch], g[Dim][N][kBatch], rel[Dim][kBatch];
-  std::int32_t node[kBatch];
-  for (std::int32_t first = tile.first; first < tile.last; first += kBatch) {
-    const int count = std::min<std::int32_t>(kBatch, tile.last - first);
-    Pack index = 0.0;
-    unroll<Dim>([&](auto d) {
-      const Pack x =
-          (load_pack(p.x[d].data() + first, count) - grid.origin[d]) * inverse - corner[d];
-      const Pack base = Basis::base(x);
-      Pack wk[N], gk[N];
-      Basis::evaluate(x - base, wk, gk);
-      unroll<N>([&](auto i) {
-        store_pack(w[d][i], wk[i], kBatch);
-        store_pack(g[d][i], gk[i] * inverse, kBatch);
+  const Pack m = load_pack(p.mass.data() + q, count);
+  Pack a[kNodeLanes], b[Dim][kNodeLanes];
+  for (Pack& x : a) x = 0.0;
+  for (auto& direction : b)
+    for (Pack& x : direction) x = 0.0;
+  a[L::mass] = m;
+  unroll<Dim>([&](auto d) {
+    if constexpr (kScatter == Scatter::velocity) {
+      a[L::momentum + d] = m * load_pack(velocity[d], count);
+    } else {
+      Pack u = load_pack(p.v[d].data() + q, count);
+      unroll<Dim>([&](auto e) {
+        const Pack c = load_pack(p.c[Dim * d + e].data() + q, count);
+        u += c * (s.r[e] * h);
+        b[e][L::momentum + d] = m * c * h;
       });
-      store_pack(rel[d], (base - x) * h, kBatch);
-      index += base * double(power<d>(W));
+      a[L::momentum + d] = m * u;
+    }
+  });
+  if constexpr (kScatter == Scatter::force) {
+    // Gradients of the stencil are per cell.
+    const Pack minus_v = load_pack(p.volume.data() + q, count) * (-1.0 / h);
+    const Pack mean = load_pack(mean_change, count);
+    unroll<Dim>([&](auto d) {
+      unroll<Dim>([&](auto e) {
+        constexpr int voigt[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+        Pack sigma = load_pack(p.sigma[voigt[d][e]].data() + q, count);
+        if constexpr (d == e) sigma += mean;
+        (e == 0 ? a : b[e])[L::force + d] = minus_v * sigma;
+      });
     });
-    for (int k = 0; k < kBatch; ++k) node[k] = static_cast<std::int32_t>(index[k]);
+  }
+  transpose(a, out.a);
+  transpose(b[0], out.b);
+  for (int e = 1; e < Dim; ++e) transpose(b[e], out.other[e - 1]);
+}
+
+/// Adds the points of a tile to `nodes` (laid out as grid.nodes). With Scatter::force `mean_change`
+/// is added to the normal stresses of each point of the tile: what F-bar does to the force. With
+/// Scatter::velocity `velocity` is what the points have.
+template <int Dim, class Basis, Scatter kScatter>
+void scatter_tile(const Points<Dim>& p, const Tile<Dim>& tile, const double* mean_change,
+                  const TileVelocity<Dim>* velocity, const Grid<Dim>& grid, Node* nodes) noexcept {
+  constexpr int N = Basis::nodes, W = kLocalWidth<Dim, Basis>, T = power<Dim>(N);
+  // Sums of the nodes of one point stay in registers while points of the same cell follow.
+  constexpr bool kHold = T <= 16;
+  alignas(64) NodeVector local[power<Dim>(W)];
+  std::memset(static_cast<void*>(local), 0, sizeof local);
+  constexpr auto offset = [](int n) { return n % N + W * (n / N % N) + W * W * (n / (N * N)); };
+  const double h = grid.h, inverse = 1.0 / h;
+  const std::array<double, Dim> corner = window_corner<Dim>(tile);
+
+  NodeVector held[kHold ? T : 1];
+  std::int32_t current = -1;
+  for (std::int32_t q = tile.first; q < tile.last; q += Pack::lanes) {
+    const int count = std::min<std::int32_t>(Pack::lanes, tile.last - q);
+    Stencil<Dim, Basis> s;
+    evaluate_stencil<Dim, Basis>(p, q, count, grid, inverse, corner, s);
+    Contributions<Dim> give;
+    const std::int32_t in_tile = q - tile.first;
+    const double* from[Dim] = {};
+    if constexpr (kScatter == Scatter::velocity)
+      for (int d = 0; d < Dim; ++d) from[d] = (*velocity)[d].data() + in_tile;
+    contributions<Dim, Basis, kScatter>(
+        p, q, count, kScatter == Scatter::force ? mean_change + in_tile : nullptr, from, s, h,
+        give);
+    alignas(64) double w[Dim][N][Pack::lanes], g[Dim][N][Pack::lanes];
+    unroll<Dim>([&](auto d) {
+      unroll<N>([&](auto i) {
+        store_pack(w[d][i], s.w[d][i], Pack::lanes);
+        store_pack(g[d][i], s.g[d][i], Pack::lanes);
+      });
+    });
     for (int k = 0; k < count; ++k) {
-      const std::int32_t q = first + k;
-      const double m = p.mass[q], minus_v = -p.volume[q];
-      Contribution<Dim> s{};
-      s.a[L::mass] = m;
-      for (int d = 0; d < Dim; ++d) {
-        double u = p.v[d][q];
-        for (int e = 0; e < Dim; ++e) {
-          const double c = p.c[Dim * d + e][q];
-          u += c * rel[e][k];
-          s.b[e][L::momentum + d] = m * c * h;
-        }
-        s.a[L::momentum + d] = m * u;
-        for (int e = 0; e < Dim; ++e) {
-          constexpr int voigt[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
-          const double mean = d == e ? mean_change[q - tile.first] : 0.0;
-          s.f[e][L::force + d] = minus_v * (p.sigma[voigt[d][e]][q] + mean);
+      NodeVector* at = local + s.at[k];
+      if constexpr (kHold) {
+        if (s.at[k] != current) {
+          if (current >= 0) unroll<T>([&](auto n) { local[current + offset(n)] = held[n]; });
+          unroll<T>([&](auto n) { held[n] = at[offset(n)]; });
+          current = s.at[k];
         }
       }
-      Vec8* at = local + node[k];
+      const auto target = [&](auto n) -> NodeVector& {
+        if constexpr (kHold)
+          return held[n];
+        else
+          return at[offset(n)];
+      };
+      NodeVector row[N], column[N];
+      unroll<N>([&](auto i) {
+        row[i] = weight_and_gradient<Dim>(w[0][i][k], g[0][i][k]) * give.a[k];
+        if constexpr (i > 0) row[i] += (double(i) * w[0][i][k]) * give.b[k];
+      });
+      unroll<N>([&](auto j) {
+        column[j] = weight_and_gradient<Dim>(double(j) * w[1][j][k], g[1][j][k]) * give.other[0][k];
+      });
       if constexpr (Dim == 2) {
-        Vec8 row[N], column[N];
-        for (int i = 0; i < N; ++i)
-          row[i] = w[0][i][k] * (s.a + double(i) * s.b[0]) + g[0][i][k] * s.f[0];
-        for (int j = 0; j < N; ++j) column[j] = (w[1][j][k] * j) * s.b[1] + g[1][j][k] * s.f[1];
-        for (int j = 0; j < N; ++j)
-          for (int i = 0; i < N; ++i) at[i + W * j] += w[1][j][k] * row[i] + w[0][i][k] * column[j];
+        unroll<N>([&](auto j) {
+          unroll<N>([&](auto i) {
+            target(std::integral_constant<int, i + N * j>{}) +=
+                w[1][j][k] * row[i] + w[0][i][k] * column[j];
+          });
+        });
       } else {
-        for (int l = 0; l < N; ++l) {
-          const Vec8 layer = (w[2][l][k] * l) * s.b[2] + g[2][l][k] * s.f[2];
-          Vec8 row[N], column[N];
-          for (int i = 0; i < N; ++i)
-            row[i] = w[0][i][k] * (s.a + double(i) * s.b[0]) + g[0][i][k] * s.f[0];
-          for (int j = 0; j < N; ++j) column[j] = (w[1][j][k] * j) * s.b[1] + g[1][j][k] * s.f[1];
-          for (int j = 0; j < N; ++j) {
-            const double wyz = w[1][j][k] * w[2][l][k];
-            const Vec8 rest = w[2][l][k] * column[j] + w[1][j][k] * layer;
-            for (int i = 0; i < N; ++i) at[i + W * (j + W * l)] += wyz * row[i] + w[0][i][k] * rest;
-          }
-        }
+        unroll<N>([&](auto l) {
+          const double wz = w[Dim - 1][l][k];
+          const NodeVector layer =
+              weight_and_gradient<Dim>(double(l) * wz, g[Dim - 1][l][k]) * give.other[Dim - 2][k];
+          unroll<N>([&](auto j) {
+            const double wy = w[1][j][k], wyz = wy * wz;
+            const NodeVector rest = wz * column[j] + wy * layer;
+            unroll<N>([&](auto i) {
+              target(std::integral_constant<int, i + N * j + N * N * l>{}) +=
+                  wyz * row[i] + w[0][i][k] * rest;
+            });
+          });
+        });
       }
     }
   }
+  if constexpr (kHold)
+    if (current >= 0) unroll<T>([&](auto n) { local[current + offset(n)] = held[n]; });
 
   for_each_row<Dim, W>(tile, [&](int from, std::int32_t block, int to, int count) {
     auto* target =
-        reinterpret_cast<Vec8*>(grid.nodes.data() + std::size_t(block) * kBlockNodes<Dim> + to);
+        reinterpret_cast<NodeVector*>(nodes + std::size_t(block) * kBlockNodes<Dim> + to);
     for (int i = 0; i < count; ++i) target[i] += local[from + i];
   });
 }

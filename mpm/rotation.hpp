@@ -23,22 +23,24 @@ Stress<2, T> rotate(const Stress<2, T>& s, const T& spin_dt) noexcept {
 }
 
 /// `w` is the rotation vector of the step (x, y, z components) [rad].
-inline Stress<3> rotate(const Stress<3>& s, const std::array<double, 3>& w) noexcept {
+template <class T>
+Stress<3, T> rotate(const Stress<3, T>& s, const std::array<T, 3>& w) noexcept {
   // Cayley transform of the skew matrix of w, written for a vector a = w / 2.
-  const double ax = 0.5 * w[0], ay = 0.5 * w[1], az = 0.5 * w[2];
-  const double a2 = ax * ax + ay * ay + az * az, k = 2.0 / (1.0 + a2);
-  const double r[3][3] = {{1 - k * (ay * ay + az * az), k * (ax * ay - az), k * (ax * az + ay)},
-                          {k * (ax * ay + az), 1 - k * (ax * ax + az * az), k * (ay * az - ax)},
-                          {k * (ax * az - ay), k * (ay * az + ax), 1 - k * (ax * ax + ay * ay)}};
-  const double m[3][3] = {{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}};
-  double t[3][3], o[3][3];
+  const T ax = 0.5 * w[0], ay = 0.5 * w[1], az = 0.5 * w[2];
+  const T k = 2.0 / (1.0 + (ax * ax + ay * ay + az * az));
+  const T r[3][3] = {{1.0 - k * (ay * ay + az * az), k * (ax * ay - az), k * (ax * az + ay)},
+                     {k * (ax * ay + az), 1.0 - k * (ax * ax + az * az), k * (ay * az - ax)},
+                     {k * (ax * az - ay), k * (ay * az + ax), 1.0 - k * (ax * ax + ay * ay)}};
+  const T m[3][3] = {{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}};
+  T t[3][3];
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) t[i][j] = r[i][0] * m[0][j] + r[i][1] * m[1][j] + r[i][2] * m[2][j];
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) o[i][j] = t[i][0] * r[j][0] + t[i][1] * r[j][1] + t[i][2] * r[j][2];
-  Stress<3> out;
-  out.v = {o[0][0], o[1][1], o[2][2], o[0][1], o[1][2], o[0][2]};
-  return out;
+  const auto out = [&](int i, int j) {
+    return t[i][0] * r[j][0] + t[i][1] * r[j][1] + t[i][2] * r[j][2];
+  };
+  Stress<3, T> rotated;
+  rotated.v = {out(0, 0), out(1, 1), out(2, 2), out(0, 1), out(1, 2), out(0, 2)};
+  return rotated;
 }
 
 /// Rotation of the step that belongs to a velocity gradient (row-major).
@@ -48,8 +50,8 @@ Stress<Dim, T> rotate_by_spin(const Stress<Dim, T>& s, const std::array<T, Dim *
   if constexpr (Dim == 2) {
     return rotate(s, T((l[2] - l[1]) * (0.5 * dt)));
   } else {
-    return rotate(s,
-                  {0.5 * dt * (l[7] - l[5]), 0.5 * dt * (l[2] - l[6]), 0.5 * dt * (l[3] - l[1])});
+    return rotate(s, std::array<T, 3>{0.5 * dt * (l[7] - l[5]), 0.5 * dt * (l[2] - l[6]),
+                                      0.5 * dt * (l[3] - l[1])});
   }
 }
 

@@ -11,6 +11,11 @@
 namespace flowslide::mpm {
 
 struct StepSettings {
+  BasisKind basis = BasisKind::quadratic;
+  Transfer transfer = Transfer::apic;
+  Update update = Update::symplectic;
+  double flip_share = 1.0;          ///< of flip; 0 is pic
+  int fmpm_order = 2;               ///< terms of fmpm's series; 1 is pic
   std::array<double, 3> gravity{};  ///< [m/s2]
   double courant = 0.9;             ///< share of the stable step of docs/theory/time-step.md
   double velocity_limit = 0.2;      ///< cells the fastest point may cross in a step
@@ -58,21 +63,27 @@ struct StepScratch {
   std::vector<TileScratch<Dim>> tile;    ///< per thread
   std::vector<StressWork> stress_work;   ///< per tile
   std::vector<GridWork<Dim>> grid_work;  ///< per block
+  std::vector<Node> second, third;  ///< as grid.nodes, where update or transfer need them
+  std::array<std::vector<double>, Dim> moved;  ///< new positions of musl [m]
   explicit StepScratch(int threads) : tile(threads) {}
 };
 
 /// Time step by the point bound of docs/theory/time-step.md, the velocity and the strain limit [s].
-template <int Dim, class Basis>
+template <int Dim>
 double stable_step(const Simulation<Dim>& s);
 
 /// Brings tiles and boundary lists up to date with the points; sizes the scratch. Also called after
 /// a checkpoint was read, then with tiles as they were (`rebin` false).
-template <int Dim, class Basis>
+template <int Dim>
 void prepare(Simulation<Dim>& s, StepScratch<Dim>& scratch, bool rebin);
 
 /// One step; nothing in it allocates, throws or depends on the number of threads, unless the points
 /// are binned anew.
-template <int Dim, class Basis, Transfer kTransfer>
+template <int Dim>
 void advance(Simulation<Dim>& s, StepScratch<Dim>& scratch);
+
+/// What advance does between choosing dt and summing up, for one basis; one file per basis.
+template <int Dim, class Basis>
+void step(Simulation<Dim>& s, StepScratch<Dim>& scratch);
 
 }  // namespace flowslide::mpm

@@ -1,12 +1,9 @@
 #pragma once
 #include "constitutive/materials.hpp"
 #include "mpm/g2p.hpp"
-#include "mpm/rotation.hpp"
 
-#include <bit>
-#include <cmath>
+#include <algorithm>
 #include <span>
-#include <type_traits>
 #include <variant>
 
 /// Stress update of the points from their velocity gradients: corotational, with the volumetric
@@ -42,108 +39,11 @@ struct StressWork {
   }
 };
 
-/// Laws run on eight points at once in plane strain; in 3D principal axes need an iteration per
-/// point.
-template <int Dim>
-using Lanes = std::conditional_t<Dim == 2, Pack, double>;
-
-template <int Dim, class M>
-StressWork update_run(Points<Dim>& p, const Tile<Dim>& tile, const MaterialRun& run,
-                      const SolverMaterial& material, const typename M::Constants& constants,
-                      double dt, const TileScratch<Dim>& s) noexcept {
-  using T = Lanes<Dim>;
-  using State = typename M::template StateOf<T>;
-  constexpr int V = kVoigt<Dim>, S = static_cast<int>(M::state_names.size());
-  constexpr int width = std::is_same_v<T, Pack> ? Pack::lanes : 1;
-  const double modulus = material.elastic.bulk + 2.0 * material.elastic.shear;
-  StressWork work;
-  T wave2 = 0.0, speed2 = 0.0, strain2 = 0.0;
-  for (std::int32_t q = run.first; q < run.last; q += width) {
-    const int n = std::min<int>(width, run.last - q);
-    const std::int32_t k = q - tile.first;
-    const auto read = [&](const std::vector<double>& array, std::int32_t at) {
-      if constexpr (std::is_same_v<T, Pack>)
-        return load_pack(array.data() + at, n);
-      else
-        return array[at];
-    };
-    const auto write = [&](std::vector<double>& array, T value) {
-      if constexpr (std::is_same_v<T, Pack>)
-        store_pack(array.data() + q, value, n);
-      else
-        array[q] = value;
-    };
-    std::array<T, Dim * Dim> l;
-    unroll<Dim * Dim>([&](auto i) { l[i] = read(s.gradient[i], k); });
-    Stress<Dim, T> sigma;
-    unroll<V>([&](auto i) { sigma[i] = read(p.sigma[i], q); });
-    State state{};
-    if constexpr (S > 0) {
-      std::array<T, S> values;
-      unroll<S>([&](auto i) { values[i] = read(p.state[i], q); });
-      state = std::bit_cast<State>(values);
-    }
-
-    const T shift = read(s.average.change, k) * (dt / 3.0);
-    const StrainIncrement<Dim, T> de = strain_increment<Dim>(l, shift, dt);
-    const auto result =
-        M::template update<Dim>(constants, state, rotate_by_spin<Dim>(sigma, l, dt), de);
-
-    const T volume = read(p.volume, q);
-    T work_start = 0.0, work_end = 0.0;
-    for (int i = 0; i < V; ++i) {
-      work_start += sigma[i] * de[i];
-      work_end += result.stress[i] * de[i];
-    }
-    unroll<V>([&](auto i) { write(p.sigma[i], result.stress[i]); });
-    if constexpr (S > 0) {
-      const auto values = std::bit_cast<std::array<T, S>>(result.state);
-      unroll<S>([&](auto i) { write(p.state[i], values[i]); });
-    }
-    const T growth = de[0] + de[1] + de[2];
-    // exp(growth) to third order: volume stays positive for any compression the step limit allows.
-    const T new_volume = volume * (1.0 + growth * (1.0 + growth * (0.5 + growth * (1.0 / 6.0))));
-    write(p.volume, new_volume);
-    wave2 = max(wave2, modulus * new_volume / read(p.mass, q));
-    T v2 = 0.0, l2 = 0.0;
-    unroll<Dim>([&](auto d) {
-      const T v = read(p.v[d], q);
-      v2 += v * v;
-    });
-    for (int i = 0; i < Dim * Dim; ++i) l2 += l[i] * l[i];
-    speed2 = max(speed2, v2);
-    strain2 = max(strain2, l2);
-    work.power_start += sum_lanes(volume * work_start, n);
-    work.power_end += sum_lanes(new_volume * work_end, n);
-  }
-  work.max_wave2 = max_lanes(wave2);
-  work.max_speed2 = max_lanes(speed2);
-  work.max_strain = std::sqrt(max_lanes(strain2)) * dt;
-  return work;
-}
-
+/// Updates stress, state and volume of a tile's points from s.gradient; s.average.span must be
+/// theirs. `average` switches F-bar. Instantiated in stress_2d.cpp and stress_3d.cpp.
 template <int Dim>
 StressWork update_stress(Points<Dim>& p, const Tile<Dim>& tile, std::span<const MaterialRun> runs,
                          std::span<const SolverMaterial> materials, double dt, TileScratch<Dim>& s,
-                         bool average) noexcept {
-  average_over_spans<Dim>(
-      p, tile, runs, s.average,
-      [&](const MaterialRun& run) { return average && materials[run.material].average_volume; },
-      [&](std::int32_t k) {
-        double trace = 0.0;
-        for (int d = 0; d < Dim; ++d) trace += s.gradient[(Dim + 1) * d][k];
-        return trace;
-      });
-  StressWork total;
-  for (const MaterialRun& run : runs) {
-    const SolverMaterial& m = materials[run.material];
-    total.add(std::visit(
-        [&]<class M>(const Typed<M>& law) {
-          return update_run<Dim, M>(p, tile, run, m, law.constants, dt, s);
-        },
-        m.law));
-  }
-  return total;
-}
+                         bool average) noexcept;
 
 }  // namespace flowslide::mpm

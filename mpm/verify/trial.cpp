@@ -3,12 +3,6 @@
 #include <cmath>
 
 namespace flowslide::mpm {
-namespace {
-
-using Basis = QuadraticBSpline;
-
-}  // namespace
-
 void fill(ParticleSet& p, const Area& area, double spacing, double density, std::int32_t material) {
   fill(p, area, spacing, density, material, [](double, double) { return true; });
 }
@@ -33,27 +27,17 @@ FlowConfig free_space(double cell) {
 }
 
 Trial::Trial(const ParticleSet& particles, const FlowConfig& config)
-    : sim(make_simulation(particles, config)), transfer_(config.transfer) {
+    : sim(make_simulation(particles, config)) {
   rebin();
   reference = {sum_points(sim), config.toe};
 }
 
-void Trial::rebin() { prepare<2, Basis>(sim, scratch, true); }
+void Trial::rebin() { prepare(sim, scratch, true); }
 
-double Trial::next_dt() const { return stable_step<2, Basis>(sim); }
+double Trial::next_dt() const { return stable_step(sim); }
 
 void Trial::step() {
-  switch (transfer_) {
-    case TransferScheme::apic:
-      advance<2, Basis, Transfer::apic>(sim, scratch);
-      break;
-    case TransferScheme::tpic:
-      advance<2, Basis, Transfer::tpic>(sim, scratch);
-      break;
-    case TransferScheme::aflip:
-      advance<2, Basis, Transfer::aflip>(sim, scratch);
-      break;
-  }
+  advance(sim, scratch);
   if (!std::isfinite(sim.last.max_speed2) || !(sim.dt > 0.0))
     throw NumericsError(
         fmt::format("step {}, t = {:.4g} s: velocities are no longer finite (the scheme is "

@@ -60,9 +60,6 @@ struct Trial {
       sim.points.v[1][q] += dt * gain[1];
     }
   }
-
- private:
-  TransferScheme transfer_;
 };
 
 /// Slope of log(error) over log(cell) by least squares.

@@ -6,7 +6,8 @@
 
 using namespace flowslide::mpm;
 
-TEMPLATE_TEST_CASE("Shape functions reproduce linear fields", "[mpm]", Linear, QuadraticBSpline) {
+TEMPLATE_TEST_CASE("Shape functions reproduce linear fields", "[mpm]", Linear, Gimp,
+                   QuadraticBSpline, CubicBSpline) {
   using Basis = TestType;
   constexpr int N = Basis::nodes;
   std::mt19937_64 random(1);
@@ -15,7 +16,7 @@ TEMPLATE_TEST_CASE("Shape functions reproduce linear fields", "[mpm]", Linear, Q
     double x = anywhere(random);
     if (i % 10 == 0) x = std::round(2.0 * x) / 2.0;  // nodes and mid-points, where pieces meet
     double w[N], g[N];
-    const double base = Basis::base(x);
+    const double base = base_node<Basis>(x);
     Basis::evaluate(x - base, w, g);
     double sum = 0, slope = 0, first = 0, first_slope = 0, second = 0;
     for (int k = 0; k < N; ++k) {
@@ -31,17 +32,20 @@ TEMPLATE_TEST_CASE("Shape functions reproduce linear fields", "[mpm]", Linear, Q
     CHECK(slope == Approx(0.0).margin(1e-14));
     CHECK(first == Approx(x).margin(1e-13));
     CHECK(first_slope == Approx(1.0).epsilon(1e-12));
-    if constexpr (N == 3) CHECK(second == Approx(Basis::affine_moment).epsilon(1e-11));
+    CHECK(second == Approx(second_moment<Basis>(x - base, w)).margin(1e-11));
+    if constexpr (Basis::constant_moment)
+      CHECK(second == Approx(Basis::affine_moment).epsilon(1e-11));
   }
 }
 
-TEMPLATE_TEST_CASE("Gradients are the slopes of the weights", "[mpm]", Linear, QuadraticBSpline) {
+TEMPLATE_TEST_CASE("Gradients are the slopes of the weights", "[mpm]", Linear, Gimp,
+                   QuadraticBSpline, CubicBSpline) {
   using Basis = TestType;
   constexpr int N = Basis::nodes;
   const double step = 1e-6;
   for (double x = 0.03; x < 3.0; x += 0.07) {
     double w0[N], w1[N], g[N], unused[N];
-    const double base = Basis::base(x);
+    const double base = base_node<Basis>(x);
     Basis::evaluate(x - base - step, w0, unused);
     Basis::evaluate(x - base + step, w1, unused);
     Basis::evaluate(x - base, unused, g);
@@ -49,14 +53,25 @@ TEMPLATE_TEST_CASE("Gradients are the slopes of the weights", "[mpm]", Linear, Q
   }
 }
 
-TEST_CASE("The gradient bound of the quadratic spline is its largest value", "[mpm]") {
-  double largest = 0.0;
-  for (int i = 1; i < 1000; ++i) {
-    double w[3], g[3], s = 0.0;
-    QuadraticBSpline::evaluate(0.5 + i / 1000.0, w, g);
-    for (int k = 0; k < 3; ++k) s += g[k] * g[k] / w[k];
+TEMPLATE_TEST_CASE("Gradient and affine bound are the largest values", "[mpm]", Linear, Gimp,
+                   QuadraticBSpline, CubicBSpline) {
+  using Basis = TestType;
+  constexpr int N = Basis::nodes;
+  double largest = 0.0, affine = 0.0;
+  for (int i = 1; i < 4000; ++i) {
+    const double x = i / 4000.0;
+    // Hat functions have no bound; theirs holds away from nodes.
+    if (Basis::kind == BasisKind::linear && std::abs(x - 0.5) > 0.5 - 1.0 / 16.0) continue;
+    double w[N], g[N], s = 0.0;
+    const double d = x - base_node<Basis>(x);
+    Basis::evaluate(d, w, g);
+    for (int k = 0; k < N; ++k)
+      if (w[k] > 0.0) s += g[k] * g[k] / w[k];
     largest = std::max(largest, s);
-    CHECK(s <= QuadraticBSpline::gradient_bound);
+    affine = std::max(affine, 2.0 * s - 1.0 / second_moment<Basis>(d, w));
   }
-  CHECK(largest > 0.99 * QuadraticBSpline::gradient_bound);
+  CHECK(largest <= Basis::gradient_bound);
+  CHECK(largest > 0.99 * Basis::gradient_bound);
+  CHECK(affine <= Basis::affine_bound);
+  CHECK(affine > 0.99 * Basis::affine_bound);
 }

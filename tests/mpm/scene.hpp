@@ -57,8 +57,6 @@ inline FlowConfig free_space(double cell) {
   return c;
 }
 
-using Spline = QuadraticBSpline;
-
 struct Run {
   Simulation<2> s;
   StepScratch<2> scratch;
@@ -66,16 +64,14 @@ struct Run {
 
   Run(const ParticleSet& particles, const FlowConfig& config, int threads = 1)
       : s(make_simulation(particles, config)), scratch(threads) {
-    prepare<2, Spline>(s, scratch, true);
+    prepare(s, scratch, true);
     start = {sum_points(s), config.toe};
   }
-  template <Transfer kTransfer = Transfer::apic>
   void step(int count = 1) {
-    for (int i = 0; i < count; ++i) advance<2, Spline, kTransfer>(s, scratch);
+    for (int i = 0; i < count; ++i) advance(s, scratch);
   }
-  template <Transfer kTransfer = Transfer::apic>
   void run_to(double time) {
-    while (s.time < time) step<kTransfer>();
+    while (s.time < time) step();
   }
   [[nodiscard]] MpmSample sample_now() const {
     std::vector<double> buffer;

@@ -1,0 +1,118 @@
+#pragma once
+#include "mpm/g2p.hpp"
+#include "mpm/p2g.hpp"
+#include "mpm/simulation.hpp"
+
+#include <cstring>
+
+/// Sweeps over the grid beside the plain step: velocities of the points mapped to a second set of
+/// nodes (usf, musl), and the series of the full mass matrix (fmpm). All are called by every thread
+/// of a parallel region and end with a barrier.
+namespace flowslide::mpm {
+
+/// Calls f(tile index) for all tiles, those of one colour at a time.
+template <int Dim, class F>
+void scatter_coloured(const Tiling<Dim>& tiling, F&& f) {
+  for (const auto& colour : tiling.colour) {
+    const auto count = static_cast<std::int32_t>(colour.size());
+#pragma omp for schedule(dynamic, 1)
+    for (std::int32_t i = 0; i < count; ++i) f(colour[i]);
+  }
+}
+
+template <int Dim>
+void clear_nodes(std::vector<Node>& nodes, std::int32_t blocks) {
+#pragma omp for schedule(static)
+  for (std::int32_t b = 0; b < blocks; ++b)
+    std::memset(static_cast<void*>(nodes.data() + std::size_t(b) * kBlockNodes<Dim>), 0,
+                sizeof(Node) * kBlockNodes<Dim>);
+}
+
+/// Velocity after the boundary conditions of a node, without friction where `slip`.
+template <int Dim, class Velocity>
+void constrain_block(const Grid<Dim>& grid, std::int32_t block, bool slip, Velocity&& velocity) {
+  for (std::int32_t b = grid.boundary_first[block]; b < grid.boundary_first[block + 1]; ++b) {
+    BoundaryNode<Dim> node = grid.boundary[b];
+    if (slip) node.friction = 0.0;
+    velocity(node.local,
+             [&](const std::array<double, Dim>& v) { return constrained<Dim>(node, v); });
+  }
+}
+
+/// Velocities of the points as `nodes` see them, boundary conditions included.
+template <int Dim, class Basis>
+void map_velocities(const Simulation<Dim>& s, std::vector<Node>& nodes) {
+  using L = NodeLayout<Dim>;
+  const auto blocks = static_cast<std::int32_t>(s.grid.blocks.size());
+  clear_nodes<Dim>(nodes, blocks);
+  scatter_coloured(s.tiling, [&](std::int32_t i) {
+    scatter_tile<Dim, Basis, Scatter::momentum>(s.points, s.tiling.tiles[i], nullptr, nullptr,
+                                                s.grid, nodes.data());
+  });
+  const double floor = kMassFloor * s.full_mass;
+#pragma omp for schedule(dynamic, 8)
+  for (std::int32_t b = 0; b < blocks; ++b) {
+    Node* block = nodes.data() + std::size_t(b) * kBlockNodes<Dim>;
+    for (int n = 0; n < kBlockNodes<Dim>; ++n) {
+      const double inverse = block[n].q[L::mass] > floor ? 1.0 / block[n].q[L::mass] : 0.0;
+      for (int d = 0; d < Dim; ++d) block[n].q[L::momentum + d] *= inverse;
+    }
+    constrain_block<Dim>(s.grid, b, false, [&](std::int32_t n, auto&& hold) {
+      std::array<double, Dim> v;
+      for (int d = 0; d < Dim; ++d) v[d] = block[n].q[L::momentum + d];
+      v = hold(v);
+      for (int d = 0; d < Dim; ++d) block[n].q[L::momentum + d] = v[d];
+    });
+  }
+}
+
+/// Turns the velocities of grid.nodes, found with the lumped mass m, into
+/// v^(k) = sum_{j<k} (I - P)^j v with P v = m^-1 sum_p w m_p sum w v (Nairn & Hammerquist 2021).
+/// Momentum stays: the sum of m (I - P) v is zero.
+template <int Dim, class Basis>
+void approach_full_mass(Simulation<Dim>& s, std::vector<Node>& rest, std::vector<Node>& mapped,
+                        std::vector<GridWork<Dim>>& work, TileScratch<Dim>& mine) {
+  using L = NodeLayout<Dim>;
+  const auto blocks = static_cast<std::int32_t>(s.grid.blocks.size());
+  const double floor = kMassFloor * s.full_mass;
+#pragma omp for schedule(static)
+  for (std::int32_t b = 0; b < blocks * kBlockNodes<Dim>; ++b)
+    for (int d = 0; d < Dim; ++d) rest[b].q[L::momentum + d] = s.grid.nodes[b].q[L::momentum + d];
+  for (int term = 1; term < s.settings.fmpm_order; ++term) {
+    clear_nodes<Dim>(mapped, blocks);
+    scatter_coloured(s.tiling, [&](std::int32_t i) {
+      const Tile<Dim>& tile = s.tiling.tiles[i];
+      interpolate_tile<Dim, Basis>(s.points, tile, s.grid, rest.data(), mine);
+      scatter_tile<Dim, Basis, Scatter::velocity>(s.points, tile, nullptr, &mine.velocity, s.grid,
+                                                  mapped.data());
+    });
+#pragma omp for schedule(dynamic, 8)
+    for (std::int32_t b = 0; b < blocks; ++b) {
+      const std::size_t first = std::size_t(b) * kBlockNodes<Dim>;
+      for (std::size_t n = first; n < first + kBlockNodes<Dim>; ++n) {
+        const double m = s.grid.nodes[n].q[L::mass];
+        const double inverse = m > floor ? 1.0 / m : 0.0;
+        for (int d = 0; d < Dim; ++d) {
+          double& r = rest[n].q[L::momentum + d];
+          r -= mapped[n].q[L::momentum + d] * inverse;
+          s.grid.nodes[n].q[L::momentum + d] += m > floor ? r : 0.0;
+        }
+      }
+    }
+  }
+#pragma omp for schedule(dynamic, 8)
+  for (std::int32_t b = 0; b < blocks; ++b) {
+    Node* block = s.grid.nodes.data() + std::size_t(b) * kBlockNodes<Dim>;
+    constrain_block<Dim>(s.grid, b, true, [&](std::int32_t n, auto&& hold) {
+      std::array<double, Dim> v;
+      for (int d = 0; d < Dim; ++d) v[d] = block[n].q[L::momentum + d];
+      const std::array<double, Dim> held = hold(v);
+      for (int d = 0; d < Dim; ++d) {
+        work[b].boundary_impulse[d] += block[n].q[L::mass] * (held[d] - v[d]);
+        block[n].q[L::momentum + d] = held[d];
+      }
+    });
+  }
+}
+
+}  // namespace flowslide::mpm
