@@ -1,0 +1,12 @@
+#pragma once
+#include "fem/config.hpp"
+#include "model/section_mesh.hpp"
+
+namespace flowslide::fem {
+
+/// A model of a section. Free-field columns are appended behind the nodes and elements of the
+/// section, whose numbers stay. Needs the edge sets "base", "right", "surface" and "left". Throws
+/// InputError, for instance for a material that the settings or the mesh do not know.
+Model build_model(const SectionMesh& section, const FemConfig& config);
+
+}  // namespace flowslide::fem

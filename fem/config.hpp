@@ -1,0 +1,133 @@
+#pragma once
+#include "config/schema.hpp"
+#include "fem/model.hpp"
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Settings of a dynamic finite-element run. docs/theory/fem.md
+namespace flowslide {
+
+struct FemMaterialConfig {
+  double density = kUnset;                             ///< saturated [kg/m3]
+  double void_ratio = kUnset;                          ///< [-]
+  std::array<double, 2> permeability{kUnset, kUnset};  ///< horizontal, vertical [m/s]
+  double k0 = 0.5;
+  bool drained = false;
+  std::optional<PM4Sand::Params> pm4sand;
+  std::optional<MohrCoulomb::Params> mohr_coulomb;
+  std::optional<LinearElastic::Params> linear_elastic;
+};
+
+struct WaterConfig {
+  std::vector<std::vector<double>> table;  ///< rows x, y [m]
+  double bulk_modulus = 2.2e9;             ///< [Pa]
+  double density = 1000.0;                 ///< [kg/m3]
+  std::vector<std::string> drains;         ///< edge sets where u = 0
+};
+
+struct FemGravityConfig {
+  double acceleration = kGravity;      ///< [m/s2]
+  std::optional<double> permeability;  ///< of all soil while water settles [m/s]
+  bool compacts = false;
+};
+
+enum class BaseMotionKind { outcrop, within };
+inline constexpr std::array<std::string_view, 2> kBaseMotionKinds{"outcrop", "within"};
+
+struct FemBaseConfig {
+  BaseMotionKind motion = BaseMotionKind::outcrop;
+  std::optional<double> shear_wave_velocity;  ///< of the rock below [m/s]
+  std::optional<double> density;              ///< of the rock below [kg/m3]
+  bool rigid_plane = true;
+};
+
+enum class SideKind { free_field, tied, fixed };
+inline constexpr std::array<std::string_view, 3> kSideKinds{"free_field", "tied", "fixed"};
+
+struct FemSideConfig {
+  SideKind kind = SideKind::free_field;
+  double width = 3.0;         ///< of a free-field column [m]
+  double thickness = 1000.0;  ///< of a free-field column out of the plane [m]
+};
+
+struct FemDampingConfig {
+  double ratio = 0.02;
+  std::array<double, 2> frequencies{0.6, 5.0};  ///< [Hz]
+  std::optional<double> mass;                   ///< [-], 1/s
+  std::optional<double> stiffness;              ///< [s]
+};
+
+struct StabilisationConfig {
+  double pressure = 0.25;         ///< alpha M/A
+  std::optional<double> modulus;  ///< M [Pa]
+  double hourglass = 1.0;         ///< factor on the hourglass stiffness
+};
+
+struct FemConfig {
+  std::map<std::string, FemMaterialConfig> materials;
+  std::optional<WaterConfig> water;
+  FemGravityConfig gravity;
+  FemBaseConfig base;
+  FemSideConfig sides;
+  FemDampingConfig damping;
+  StabilisationConfig stabilisation;
+  std::optional<double> end;      ///< [s]; the duration of the motion if left out
+  double output_interval = 0.25;  ///< [s]
+  double courant = 0.9;
+};
+
+/// Relations that ranges cannot express. Throws InputError.
+void check(const FemConfig& c);
+
+template <>
+struct Schema<FemMaterialConfig> {
+  static constexpr std::string_view doc = "A soil; exactly one of the laws.";
+  static void describe(FieldVisitor& v, FemMaterialConfig& c);
+};
+template <>
+struct Schema<WaterConfig> {
+  static constexpr std::string_view doc = "Pore water and where it stands at rest.";
+  static void describe(FieldVisitor& v, WaterConfig& c);
+};
+template <>
+struct Schema<FemGravityConfig> {
+  static constexpr std::string_view doc = "The state before shaking.";
+  static void describe(FieldVisitor& v, FemGravityConfig& c);
+};
+template <>
+struct Schema<FemBaseConfig> {
+  static constexpr std::string_view doc =
+      "How the motion enters. With the rock's shear wave velocity and density the base is "
+      "compliant "
+      "(dashpots after Lysmer and Kuhlemeyer); without them it follows the motion rigidly.";
+  static void describe(FieldVisitor& v, FemBaseConfig& c);
+};
+template <>
+struct Schema<FemSideConfig> {
+  static constexpr std::string_view doc = "The vertical ends of the section.";
+  static void describe(FieldVisitor& v, FemSideConfig& c);
+};
+template <>
+struct Schema<FemDampingConfig> {
+  static constexpr std::string_view doc =
+      "Rayleigh damping: a ratio at two frequencies, or both factors.";
+  static void describe(FieldVisitor& v, FemDampingConfig& c);
+};
+template <>
+struct Schema<StabilisationConfig> {
+  static constexpr std::string_view doc = "What single-point elements need besides the physics.";
+  static void describe(FieldVisitor& v, StabilisationConfig& c);
+};
+template <>
+struct Schema<FemConfig> {
+  static constexpr std::string_view doc =
+      "Dynamic finite-element run of a saturated section in plane strain: gravity, then shaking.";
+  static void describe(FieldVisitor& v, FemConfig& c);
+};
+
+}  // namespace flowslide

@@ -1,0 +1,33 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/SparseCore>
+
+namespace flowslide::fem {
+
+/// Cholesky factor L L^T of a symmetric positive definite matrix, kept as a band: the meshes of
+/// sections are long and flat, so that the band is as sparse as any factor, and its loops are
+/// contiguous.
+class BandFactor {
+ public:
+  BandFactor() = default;
+  /// Numbers the unknowns to a small band width (reverse Cuthill-McKee) from the pattern.
+  explicit BandFactor(const Eigen::SparseMatrix<double>& pattern);
+  /// Throws NumericsError if the matrix is not positive definite. Its pattern may be smaller than
+  /// that of the constructor.
+  void factorise(const Eigen::SparseMatrix<double>& matrix);
+  /// Replaces b by the solution. Does not allocate.
+  void solve(double* b);
+  [[nodiscard]] std::int32_t size() const { return n_; }
+  [[nodiscard]] std::int32_t bandwidth() const { return width_; }
+
+ private:
+  std::int32_t n_ = 0, width_ = 0;
+  std::vector<std::int32_t> position_;  ///< unknown -> row
+  std::vector<double> rows_;            ///< L[i][i - width_ .. i], row after row
+  std::vector<double> inverse_;         ///< 1/L[i][i]
+  std::vector<double> work_;
+};
+
+}  // namespace flowslide::fem

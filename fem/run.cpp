@@ -1,0 +1,172 @@
+#include "fem/run.hpp"
+
+#include "fem/build_model.hpp"
+#include "fem/gravity.hpp"
+#include "fem/time_step.hpp"
+#include "model/history.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <omp.h>
+
+namespace flowslide {
+namespace {
+
+using namespace fem;
+
+constexpr int kModuliInterval = 16;  ///< steps between looks at stiffness and step
+
+Damping rayleigh(const FemDampingConfig& c) {
+  if (c.mass) return {*c.mass, *c.stiffness};
+  const double w1 = 2.0 * kPi * c.frequencies[0], w2 = 2.0 * kPi * c.frequencies[1];
+  return {2.0 * c.ratio * w1 * w2 / (w1 + w2), 2.0 * c.ratio / (w1 + w2)};
+}
+
+/// Ground velocity: the acceleration integrated as the straight line between its samples.
+class Velocity {
+ public:
+  explicit Velocity(const GroundMotion& m) : dt_(m.dt), acceleration_(m.acceleration) {
+    velocity_.assign(acceleration_.size(), 0.0);
+    for (std::size_t i = 1; i < acceleration_.size(); ++i)
+      velocity_[i] = velocity_[i - 1] + 0.5 * dt_ * (acceleration_[i - 1] + acceleration_[i]);
+  }
+  /// Zero acceleration after the end.
+  [[nodiscard]] double at(double time) const {
+    const double x = std::max(0.0, time / dt_);
+    const auto i = static_cast<std::size_t>(x);
+    if (i + 1 >= velocity_.size()) return velocity_.back();
+    const double t = time - static_cast<double>(i) * dt_;
+    const double slope = (acceleration_[i + 1] - acceleration_[i]) / dt_;
+    return velocity_[i] + t * (acceleration_[i] + 0.5 * slope * t);
+  }
+
+ private:
+  double dt_;
+  std::vector<double> acceleration_, velocity_;
+};
+
+void set_stabilisation(Solver& s, const StabilisationConfig& c) {
+  for (std::size_t e = 0; e < s.layout.elements.size(); ++e) {
+    const double modulus = c.modulus.value_or(s.lambda[e] + 2.0 * s.shear[e]);
+    s.water.alpha[e] = c.pressure * s.layout.elements.area[e] / modulus;
+  }
+}
+
+/// The state on the nodes and elements of the section.
+void fill(FemFrame& frame, const Solver& s, std::size_t nodes, std::size_t elements) {
+  frame.time = s.state.time;
+  frame.displacement.resize(nodes);
+  frame.velocity.resize(nodes);
+  frame.pore_pressure.assign(s.state.pressure.begin(), s.state.pressure.begin() + nodes);
+  frame.stress.resize(elements);
+  frame.strain.resize(elements);
+  for (std::size_t i = 0; i < nodes; ++i)
+    for (int d = 0; d < 2; ++d) {
+      frame.displacement[i][d] = s.state.displacement[s.model.dof[i][d]];
+      frame.velocity[i][d] = s.state.velocity[s.model.dof[i][d]];
+    }
+  const Elements& g = s.layout.elements;
+  for (std::size_t k = 0; k < g.size(); ++k) {
+    const auto e = static_cast<std::size_t>(s.layout.order[k]);
+    if (e >= elements) continue;
+    frame.stress[e] = s.state.stress[k];
+    StrainIncrement<2>& strain = frame.strain[e];
+    strain = {};
+    for (int i = 0; i < 4; ++i) {
+      const Vec2& u = frame.displacement[s.layout.nodes[k][i]];
+      strain[0] += g.bx[i][k] * u[0];
+      strain[1] += g.by[i][k] * u[1];
+      strain[3] += g.by[i][k] * u[0] + g.bx[i][k] * u[1];
+    }
+  }
+}
+
+/// Keeps the step below the stable one and makes steps end at the times of output.
+class StepControl {
+ public:
+  StepControl(Solver& s, double courant) : courant_(courant), water_(water_frequency(s)) {}
+
+  void choose(Solver& s, double left) {
+    const double allowed = courant_ * stable_step({soil_frequency(s), water_}, s.damping.stiffness);
+    if (!(allowed > 1e-9))
+      throw NumericsError(fmt::format(
+          "the stable step has fallen to {:.3g} s at {:.4f} s (soil has become extremely stiff or "
+          "an element extremely small)",
+          allowed, s.state.time));
+    const bool fits = s.dt <= allowed && s.dt >= 0.8 * allowed;
+    const double steps = left / s.dt;
+    if (fits && std::abs(steps - std::round(steps)) < 1e-6 * steps && steps > 0.5) return;
+    s.dt = left / std::max(1.0, std::ceil(left / (0.97 * allowed)));
+  }
+
+ private:
+  double courant_, water_;
+};
+
+}  // namespace
+
+FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const FemConfig& config,
+                 const std::filesystem::path& history, int threads, const Progress& progress) {
+  check(motion);
+  omp_set_num_threads(std::max(1, threads));
+  Solver s = make_solver(build_model(section, config), rayleigh(config.damping));
+  for (double& g : s.hourglass_shear) g *= config.stabilisation.hourglass;
+  solve_gravity(s, {config.gravity.permeability.value_or(kUnset), config.gravity.compacts});
+  FemFacts facts;
+  facts.out_of_balance = out_of_balance(s);
+  refresh_moduli(s);
+  set_stabilisation(s, config.stabilisation);
+
+  const Velocity ground(motion);
+  const double end = config.end.value_or(motion.duration());
+  const std::size_t nodes = section.mesh.num_nodes(), elements = section.mesh.num_elements();
+  FemHistoryWriter writer(
+      history, section.mesh,
+      {"flowslide fem.run", "mean of xx and yy for PM4Sand, elastic plane strain for other laws",
+       section.notes});
+  FemFrame frame;
+  fill(frame, s, nodes, elements);
+  writer.set_gravity(frame);
+  StepControl control(s, config.courant);
+  start_motion(s);
+  s.dt = 1e-12;
+  facts.smallest_step = end;
+
+  const auto start = std::chrono::steady_clock::now();
+  for (std::int64_t output = 1; s.state.time < end * (1.0 - 1e-9); ++output) {
+    const double target = std::min(end, static_cast<double>(output) * config.output_interval);
+    int since = kModuliInterval;
+    while (target - s.state.time > 1e-9 * config.output_interval) {
+      if (since++ >= kModuliInterval) {
+        refresh_moduli(s);
+        control.choose(s, target - s.state.time);
+        facts.smallest_step = std::min(facts.smallest_step, s.dt);
+        facts.largest_step = std::max(facts.largest_step, s.dt);
+        since = 1;
+      }
+      advance(s, {ground.at(s.state.time), ground.at(s.state.time + s.dt)});
+      if (progress.should_stop())
+        throw Interrupted(fmt::format("stopped at {:.2f} s of shaking", s.state.time));
+    }
+    s.state.time = target;
+    fill(frame, s, nodes, elements);
+    writer.append(frame);
+    progress.report(target / end, fmt::format("{:.2f} s, step {:.3g} s", target, s.dt));
+  }
+  writer.finish();
+  facts.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  facts.end_time = s.state.time;
+  facts.steps = s.state.step;
+  const Energy& energy = s.state.energy;
+  facts.energy_error = energy.error();
+  facts.base_work = energy.base;
+  facts.damping_work = energy.damping + energy.viscous;
+  facts.kinetic_energy = energy.kinetic;
+  facts.sub_steps = static_cast<double>(s.counters.sub_steps);
+  facts.floored = static_cast<double>(s.counters.floored);
+  return facts;
+}
+
+}  // namespace flowslide

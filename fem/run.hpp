@@ -1,0 +1,33 @@
+#pragma once
+#include "core/progress.hpp"
+#include "fem/config.hpp"
+#include "model/ground_motion.hpp"
+#include "model/section_mesh.hpp"
+
+#include <cstdint>
+#include <filesystem>
+
+/// The stage of shaking: a section and a motion become a FemHistory.
+namespace flowslide {
+
+struct FemFacts {
+  double end_time = 0.0;  ///< [s]
+  std::int64_t steps = 0;
+  double smallest_step = 0.0, largest_step = 0.0;  ///< [s]
+  double out_of_balance = 0.0;                     ///< before shaking, over the largest weight
+  double energy_error = 0.0;                       ///< balance over the work done
+  double base_work = 0.0;                          ///< by the motion [J/m]
+  double damping_work = 0.0;                       ///< lost in dashpots and Rayleigh damping [J/m]
+  double kinetic_energy = 0.0;                     ///< at the end [J/m]
+  double sub_steps = 0.0;                          ///< of PM4Sand
+  double floored = 0.0;  ///< sub-steps that ended at the floor of mean stress
+  double seconds = 0.0;  ///< wall time of the steps
+};
+
+/// Runs gravity and shaking and writes the history, without the free-field columns. Displacements
+/// count from the end of gravity and hold the motion of the base. Throws InputError, NumericsError
+/// naming element and time, FileError, Interrupted.
+FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const FemConfig& config,
+                 const std::filesystem::path& history, int threads, const Progress& progress);
+
+}  // namespace flowslide

@@ -1,0 +1,107 @@
+#include "fem/time_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+namespace flowslide::fem {
+namespace {
+
+/// B M^-1 B^T times volume, with the unknowns that are held left out.
+Eigen::Matrix3d compliance(const Solver& s, std::size_t e) {
+  const Elements& g = s.layout.elements;
+  const double m = s.model.materials[s.layout.material[e]].density;
+  Eigen::Matrix3d r = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::Vector3d x{g.bx[i][e], 0.0, g.by[i][e]}, y{0.0, g.by[i][e], g.bx[i][e]};
+    r += (x * x.transpose() + y * y.transpose()) / (m * g.share[i][e]);
+  }
+  return r;
+}
+
+double largest(const Eigen::Matrix3d& m) { return m.eigenvalues().real().maxCoeff(); }
+
+}  // namespace
+
+double soil_frequency(const Solver& s) {
+  const Elements& g = s.layout.elements;
+  double worst = 0.0;
+#pragma omp parallel for schedule(static) reduction(max : worst)
+  for (std::size_t e = 0; e < g.size(); ++e) {
+    const Eigen::Matrix3d W = compliance(s, e);
+    Eigen::Matrix3d C = Eigen::Matrix3d::Zero();
+    C.topLeftCorner<2, 2>().setConstant(s.lambda[e]);
+    C(0, 0) += 2.0 * s.shear[e];
+    C(1, 1) += 2.0 * s.shear[e];
+    C(2, 2) = s.shear[e];
+    const double density = s.model.materials[s.layout.material[e]].density;
+    double gg = 0.0;
+    for (int i = 0; i < 4; ++i)
+      gg += g.gamma[i][e] * g.gamma[i][e] / (density * g.volume[e] * g.share[i][e]);
+    const double spread = std::hypot(g.hss[e] - g.htt[e], 2.0 * g.hst[e]);
+    const double hourglass = 0.5 * (g.hss[e] + g.htt[e] + spread) * s.hourglass_shear[e] * gg;
+    // On parallelograms the two kinds of motion are orthogonal; elsewhere nearly so.
+    worst = std::max(worst, std::max(largest(C * W), hourglass));
+  }
+  return worst;
+}
+
+double water_frequency(Solver& s) {
+  const Layout& l = s.layout;
+  const Elements& g = l.elements;
+  if (s.water.num_equations == 0) return 0.0;
+  factorise(s.water, l, 0.0);
+  std::vector<double> v(s.model.num_dofs + 1), f(8 * g.size()), q(4 * g.size(), 0.0);
+  std::vector<double> p(s.water.num_equations + 1, 0.0);
+  // a fixed start that holds all wave lengths
+  std::uint64_t random = 1;
+  for (std::int32_t u = 0; u < s.model.num_dofs; ++u) {
+    random = random * 6364136223846793005ULL + 1442695040888963407ULL;
+    v[u] = static_cast<double>(random >> 40) / 16777216.0 - 0.5;
+  }
+  for (std::int32_t u : s.model.base_dofs) v[u] = 0.0;
+  double lambda = 0.0;
+  for (int pass = 0; pass < 60; ++pass) {
+    double norm = 0.0;
+    for (std::int32_t u = 0; u < s.model.num_dofs; ++u) norm += l.mass[u] * v[u] * v[u];
+    norm = std::sqrt(norm);
+    if (!(norm > 0.0)) return 0.0;
+    for (double& x : v) x /= norm;
+    v[s.model.num_dofs] = 0.0;
+    for (std::size_t e = 0; e < g.size(); ++e) {
+      double volumetric = 0.0;
+      for (int i = 0; i < 4; ++i)
+        volumetric += g.bx[i][e] * v[l.dofs[e][2 * i]] + g.by[i][e] * v[l.dofs[e][2 * i + 1]];
+      if (!l.saturated[e]) continue;
+      for (int i = 0; i < 4; ++i) q[4 * e + i] = 0.25 * g.volume[e] * volumetric;
+    }
+    for (std::int32_t i = 0; i < s.water.num_equations; ++i) p[i] = s.water.flow.sum(i, q.data());
+    s.water.factor.solve(p.data());
+    p[s.water.num_equations] = 0.0;
+    for (std::size_t e = 0; e < g.size(); ++e) {
+      double u = 0.0;
+      if (l.saturated[e])
+        for (const std::int32_t node : l.nodes[e]) u += 0.25 * p[s.water.equation[node]];
+      for (int i = 0; i < 4; ++i) {
+        f[8 * e + 2 * i] = g.volume[e] * g.bx[i][e] * u;
+        f[8 * e + 2 * i + 1] = g.volume[e] * g.by[i][e] * u;
+      }
+    }
+    lambda = 0.0;
+    for (std::int32_t u = 0; u < s.model.num_dofs; ++u) {
+      const double force = l.forces.sum(u, f.data());
+      lambda += force * v[u];
+      v[u] = force / l.mass[u];
+    }
+    for (std::int32_t u : s.model.base_dofs) v[u] = 0.0;
+  }
+  return 1.05 * lambda;
+}
+
+double stable_step(const Frequencies& f, double beta) {
+  const double a = 0.25 * (f.soil + f.water), b = 0.5 * beta * f.soil;
+  return 2.0 / (b + std::sqrt(b * b + 4.0 * a));
+}
+
+}  // namespace flowslide::fem

@@ -1,0 +1,24 @@
+#pragma once
+#include "fem/solver.hpp"
+
+namespace flowslide::fem {
+
+/// Squares of angular frequencies that bound the step [1/s2].
+struct Frequencies {
+  double soil = 0.0;   ///< of the present elastic skeleton with its hourglass stiffness
+  double water = 0.0;  ///< that undrained pore pressure adds
+};
+
+/// Bound of the skeleton by its elements: the largest frequency of the mesh is not above the
+/// largest of a single free element (Irons).
+double soil_frequency(const Solver& s);
+
+/// Largest eigenvalue of M^-1 Q (S + alpha L)^-1 Q^T by power iteration, 5 % added. Uses the
+/// scratch of the solver; not during a step.
+double water_frequency(Solver& s);
+
+/// Largest stable step of central differences with lagged stiffness damping:
+/// (soil + water) dt^2/4 + beta soil dt/2 = 1.
+double stable_step(const Frequencies& f, double beta);
+
+}  // namespace flowslide::fem
