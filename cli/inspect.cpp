@@ -2,9 +2,12 @@
 #include "importers/recorder_text.hpp"
 #include "model/field_store.hpp"
 #include "model/history.hpp"
+#include "model/motion_file.hpp"
 #include "model/mpm_history.hpp"
 #include "model/particle_set.hpp"
+#include "model/section_mesh.hpp"
 #include "model/zone.hpp"
+#include "motion/measures.hpp"
 #include "workflows/engine/graph.hpp"
 #include "workflows/engine/record.hpp"
 #include "workflows/stages/stage_list.hpp"
@@ -83,6 +86,28 @@ Json inspect_flow(const fs::path& path) {
   return j;
 }
 
+Json inspect_mesh(const fs::path& path) {
+  const SectionMesh section = read_section_mesh(path);
+  Json j = {{"nodes", section.mesh.num_nodes()}, {"elements", section.mesh.num_elements()}};
+  for (const MaterialName& m : section.materials) j["materials"][m.name] = m.tag;
+  for (const EdgeSet& set : section.sets) j["set_edges"][set.name] = set.edges.size();
+  j["problems"] = section.notes;
+  return j;
+}
+
+Json inspect_motion(const fs::path& path) {
+  const GroundMotion motion = read_motion_file(path);
+  const MotionMeasures m = measure(motion);
+  return {{"origin", motion.origin},
+          {"samples", motion.acceleration.size()},
+          {"dt_s", motion.dt},
+          {"pga_m_s2", m.pga},
+          {"pgv_m_s", m.pgv},
+          {"d5_95_s", m.d5_95},
+          {"tm_s", m.tm},
+          {"problems", Json::array()}};
+}
+
 Json inspect_store(const fs::path& path) {
   const std::string kind = stored_kind(path);
   Json j = {{"kind", kind}};
@@ -90,6 +115,10 @@ Json inspect_store(const fs::path& path) {
     j.update(inspect_history(path));
   else if (kind == "zone")
     j.update(inspect_zone(path));
+  else if (kind == "mesh")
+    j.update(inspect_mesh(path));
+  else if (kind == "motion")
+    j.update(inspect_motion(path));
   else if (kind == "particles")
     j.update(inspect_particles(path));
   else if (kind == "mpm_history")

@@ -9,6 +9,8 @@ namespace flowslide {
 class FemHistory;
 class MpmHistory;
 struct LiquefactionZone;
+struct GroundMotion;
+struct SectionMesh;
 struct ParticleSet;
 struct TransferAudit;  ///< tag of audit.json
 struct ReportFolder;   ///< tag of the folder with the report
@@ -19,6 +21,10 @@ template <class T>
 inline constexpr std::string_view kArtifactKind = "";
 template <>
 inline constexpr std::string_view kArtifactKind<FemHistory> = "fem_history";
+template <>
+inline constexpr std::string_view kArtifactKind<SectionMesh> = "mesh";
+template <>
+inline constexpr std::string_view kArtifactKind<GroundMotion> = "motion";
 template <>
 inline constexpr std::string_view kArtifactKind<LiquefactionZone> = "zone";
 template <>

@@ -1,0 +1,193 @@
+#include "section/mesh_section.hpp"
+
+#include "core/check.hpp"
+#include "section/quality.hpp"
+#include "tests/section/section.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <catch2/catch.hpp>
+
+using namespace flowslide;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr const char* kTwoBlocks = R"(
+size: 1 m
+materials: {sand: {tag: 1}, clay: {tag: 2}}
+blocks:
+  below: {outline: [[0 m, 0 m], [6 m, 0 m], [6 m, 2 m], [0 m, 2 m]], material: clay}
+  above: {outline: [[2 m, 2 m], [4 m, 2 m], [4 m, 5 m], [2 m, 5 m]], material: sand}
+)";
+
+std::string with(std::string text, const std::string& old, const std::string& replacement) {
+  const auto at = text.find(old);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, old.size(), replacement);
+}
+
+double total_area(const QuadMesh& mesh) {
+  double sum = 0.0;
+  for (std::size_t e = 0; e < mesh.num_elements(); ++e) sum += area(corners(mesh, mesh.nodes, e));
+  return sum;
+}
+
+/// Elements on each inner edge: 2 everywhere in a mesh whose edges match.
+int largest_share(const QuadMesh& mesh) {
+  std::map<std::pair<int, int>, int> count;
+  int most = 0;
+  for (const auto& n : mesh.elements)
+    for (std::size_t k = 0; k < 4; ++k)
+      most = std::max(most, ++count[std::minmax(n[k], n[(k + 1) % 4])]);
+  return most;
+}
+
+double length_of(const SectionMesh& s, const std::string& name) {
+  double sum = 0.0;
+  for (const auto& [a, b] : find_set(s, name).edges)
+    sum += std::hypot(s.mesh.nodes[b][0] - s.mesh.nodes[a][0],
+                      s.mesh.nodes[b][1] - s.mesh.nodes[a][1]);
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("blocks that share part of a side get one mesh") {
+  const SectionMesh s = mesh_section(section_of(kTwoBlocks));
+  CHECK(s.mesh.num_elements() == 6 * 2 + 2 * 3);
+  CHECK(s.mesh.num_nodes() == 7 * 3 + 3 * 3);
+  CHECK(total_area(s.mesh) == Approx(18.0));
+  CHECK(std::count(s.mesh.element_material.begin(), s.mesh.element_material.end(), 1) == 6);
+  CHECK(length_of(s, "base") == Approx(6.0));
+  CHECK(length_of(s, "left") == Approx(2.0));
+  CHECK(length_of(s, "right") == Approx(2.0));
+  CHECK(length_of(s, "surface") == Approx(2.0 + 3.0 + 2.0 + 3.0 + 2.0));
+  const MeshQuality q = measure_quality(s.mesh);
+  CHECK(q.jacobian_ratio.value == Approx(1.0));
+  CHECK(q.angle.value == Approx(0.0).margin(1e-9));
+  CHECK(s.notes.empty());
+}
+
+TEST_CASE("the section of the Mochikoshi dam is meshed with usable elements") {
+  const SectionConfig config = mochikoshi();
+  const SectionMesh s = mesh_section(config);
+  // The shoelace formula over the tailings, by hand: (-340,0) (0,0) (20,12.5) (17.42,12.5)
+  // (-38,30).
+  const double tailings =
+      0.5 * (0.0 * 12.5 - 20.0 * 0.0 + 20.0 * 12.5 - 17.42 * 12.5 + 17.42 * 30.0 + 38.0 * 12.5 +
+             -38.0 * 30.0 + 340.0 * 30.0 + -340.0 * 0.0 + 340.0 * 30.0);
+  const double dams = 0.5 * (75.0 + 15.42) * 12.5 + 18.0 * 17.5;
+  CHECK(total_area(s.mesh) == Approx(5.0 * 427.5 + dams + tailings).epsilon(1e-9));
+  CHECK(largest_share(s.mesh) == 2);
+  CHECK(length_of(s, "base") == Approx(427.5));
+  CHECK(length_of(s, "left") == Approx(35.0));
+  CHECK(length_of(s, "right") == Approx(5.0));
+  CHECK(length_of(s, "pond") == Approx(302.0));
+  CHECK(length_of(s, "toe_drain") == Approx(14.2));
+  const MeshQuality q = measure_quality(s.mesh);
+  CHECK(q.jacobian_ratio.value > 0.5);
+  // The faces of the dam fall at 17.5 degrees; no element can have a blunter corner there.
+  CHECK(q.angle.value < 90.0 - 17.0);
+  CHECK(q.aspect.value < 10.0);
+}
+
+TEST_CASE("sizes follow x, and sides take over the spacing of what lies opposite") {
+  const SectionMesh s = mesh_section(section_of(R"(
+size: 1 m
+size_along_x: [[0 m, 4 m], [40 m, 1 m]]
+materials: {sand: {tag: 1}}
+blocks:
+  all: {outline: [[0 m, 0 m], [40 m, 0 m], [40 m, 4 m], [0 m, 4 m]], material: sand}
+)"));
+  // The integral of dx / h with h from 4 to 1 over 40 m: 40/3 ln 4 = 18.5.
+  CHECK(find_set(s, "base").edges.size() >= 18);
+  CHECK(find_set(s, "base").edges.size() <= 19);
+  const MeshQuality q = measure_quality(s.mesh);
+  CHECK(q.longest_edge.value == Approx(4.0).epsilon(0.12));
+}
+
+TEST_CASE("a block of three corners becomes three grids") {
+  const SectionMesh s = mesh_section(section_of(R"(
+size: 1 m
+materials: {sand: {tag: 1}}
+blocks:
+  all: {outline: [[0 m, 0 m], [8 m, 0 m], [4 m, 7 m]], material: sand}
+)"));
+  CHECK(total_area(s.mesh) == Approx(28.0));
+  CHECK(largest_share(s.mesh) == 2);
+  CHECK(measure_quality(s.mesh).jacobian_ratio.value > 0.5);
+  CHECK(s.sets.empty());
+  REQUIRE(s.notes.size() == 1);
+  CHECK_THAT(s.notes[0], Contains("no vertical ends"));
+}
+
+TEST_CASE("numbers of elements can be given, and contradictions are named") {
+  const std::string text =
+      with(kTwoBlocks, "material: clay}", "material: clay, divisions: [9, 0]}");
+  CHECK(find_set(mesh_section(section_of(text)), "base").edges.size() == 9);
+  const std::string both = with(text, "material: sand}", "material: sand, divisions: [9, 3]}");
+  CHECK_THROWS_WITH(mesh_section(section_of(both)), Contains("block '") && Contains("divisions"));
+}
+
+TEST_CASE("zones change the material of the elements inside") {
+  const SectionMesh s = mesh_section(section_of(std::string(kTwoBlocks) + R"(
+zones:
+  lens: {outline: [[0 m, 0 m], [3 m, 0 m], [3 m, 1 m], [0 m, 1 m]], material: sand}
+)"));
+  CHECK(std::count(s.mesh.element_material.begin(), s.mesh.element_material.end(), 1) == 6 + 3);
+}
+
+TEST_CASE("bad sections are explained") {
+  const auto error = [](const std::string& old, const std::string& replacement) {
+    try {
+      mesh_section(section_of(with(kTwoBlocks, old, replacement)));
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string("no error");
+  };
+  const std::string above = "[[2 m, 2 m], [4 m, 2 m], [4 m, 5 m], [2 m, 5 m]]";
+  CHECK_THAT(error(above, "[[2 m, 1.99 m], [4 m, 2 m], [4 m, 5 m], [2 m, 5 m]]"),
+             Contains("block 'above'") && Contains("0.01 m"));
+  CHECK_THAT(error(above, "[[2 m, 1 m], [4 m, 1 m], [4 m, 5 m], [2 m, 5 m]]"),
+             Contains("'above' and 'below' overlap") && Contains("cross at"));
+  CHECK_THAT(error(above, "[[2 m, 0.5 m], [4 m, 0.5 m], [4 m, 1 m], [2 m, 1 m]]"),
+             Contains("overlap: the point"));
+  CHECK_THAT(error(above, "[[2 m, 3 m], [4 m, 3 m], [4 m, 5 m], [2 m, 5 m]]"),
+             Contains("falls into 2 parts") && Contains("'above'"));
+  CHECK_THAT(error(above, "[[6 m, 2 m], [8 m, 2 m], [8 m, 5 m], [6 m, 5 m]]"),
+             Contains("at the point (6, 2) only"));
+  CHECK_THAT(error(above, "[[2 m, 2 m], [2 m, 5 m], [4 m, 5 m], [4 m, 2 m]]"),
+             Contains("block 'above'") && Contains("clockwise"));
+  CHECK_THAT(error(above, "[[2 m, 2 m], [4 m, 5 m], [4 m, 2 m], [2 m, 5 m]]"),
+             Contains("crosses itself at (3, 3.5)"));
+  CHECK_THAT(error(above, "[[2 m, 2 m], [4 m, 2 m], [4 m, 5 m], [3 m, 5 m], [2 m, 5 m]]"),
+             Contains("5 points") && Contains("corners: [1, 2, 3, 5]"));
+  CHECK_THAT(error("material: sand}", "material: sands}"), Contains("no material 'sands'"));
+  CHECK_THAT(error("size: 1 m", "size: 1 mm"), Contains("elements") && Contains("units"));
+  CHECK_THAT(error("{tag: 2}", "{tag: 1}"), Contains("tag 1 is that of another"));
+  CHECK_THAT(error("{tag: 2}", "{}"), Contains("has no tag"));
+  const std::string set = "material: sand}\nsets: {pond: {line: [[0 m, 2 m], [2 m, 2.5 m]]}}";
+  CHECK_THAT(error("material: sand}", set), Contains("set 'pond'") && Contains("0 m of"));
+  // The inner corner of an L is no place for a side of one grid.
+  CHECK_THAT(error(above + ", material",
+                   "[[2 m, 2 m], [4 m, 2 m], [4 m, 2.6 m], [2.6 m, 2.6 m], [2.6 m, 9 m], "
+                   "[2 m, 9 m]], corners: [1, 2, 5, 6], material"),
+             Contains("block 'above'") && Contains("folds over"));
+}
+
+TEST_CASE("holes between blocks are found") {
+  CHECK_THROWS_WITH(mesh_section(section_of(R"(
+size: 1 m
+materials: {sand: {tag: 1}}
+blocks:
+  south: {outline: [[0 m, 0 m], [6 m, 0 m], [6 m, 2 m], [0 m, 2 m]], material: sand}
+  north: {outline: [[0 m, 4 m], [6 m, 4 m], [6 m, 6 m], [0 m, 6 m]], material: sand}
+  west: {outline: [[0 m, 2 m], [2 m, 2 m], [2 m, 4 m], [0 m, 4 m]], material: sand}
+  east: {outline: [[4 m, 2 m], [6 m, 2 m], [6 m, 4 m], [4 m, 4 m]], material: sand}
+)")),
+                    Contains("hole of 4 m2") && Contains("'north', 'south'"));
+}

@@ -1,0 +1,17 @@
+#pragma once
+#include "config/yaml.hpp"
+#include "section/section_config.hpp"
+#include "tests/model/scratch.hpp"
+
+/// Settings of a section from YAML text.
+inline flowslide::SectionConfig section_of(const std::string& yaml) {
+  const Scratch scratch;
+  put_bytes(scratch / "section.yaml", yaml);
+  return flowslide::read_settings<flowslide::SectionConfig>(
+      flowslide::load_yaml(scratch / "section.yaml"), "");
+}
+
+inline flowslide::SectionConfig mochikoshi() {
+  return flowslide::read_settings<flowslide::SectionConfig>(
+      flowslide::load_yaml(FLOWSLIDE_FIXTURES "/sections/mochikoshi.yaml"), "");
+}

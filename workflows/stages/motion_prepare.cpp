@@ -1,0 +1,48 @@
+#include "model/motion_file.hpp"
+#include "motion/measures.hpp"
+#include "motion/prepare.hpp"
+#include "workflows/stages/stage_list.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace flowslide {
+namespace {
+
+struct MotionPrepareStage {
+  static constexpr std::string_view name = "motion.prepare";
+  static constexpr std::string_view doc =
+      "Reads or synthesises a ground motion, processes it and scales it.";
+  static constexpr int version = 1;
+  static constexpr bool checkpoints = false;
+  using Config = MotionConfig;
+  struct Inputs {
+    void visit(auto&&) {}
+  };
+  struct Outputs {
+    Artifact<GroundMotion> motion{"motion.h5"};
+    void visit(auto&& port) { port("motion", motion); }
+  };
+  static void check(const Config& config) { flowslide::check(config); }
+  static StageResult run(const RunContext&, const Config& config, const Inputs&,
+                         const Outputs& out) {
+    const GroundMotion motion = prepare_motion(config);
+    write_motion_file(out.motion.path, motion);
+    const MotionMeasures m = measure(motion);
+    const nlohmann::ordered_json facts = {{"motion_pga_m_s2", m.pga},
+                                          {"motion_pgv_m_s", m.pgv},
+                                          {"motion_arias_m_s", m.arias},
+                                          {"motion_d5_95_s", m.d5_95},
+                                          {"motion_tm_s", m.tm},
+                                          {"motion_cav_m_s", m.cav},
+                                          {"motion_masi_m_s", m.masi},
+                                          {"motion_dt_s", motion.dt},
+                                          {"motion_duration_s", motion.duration()}};
+    return {.facts = facts.dump(), .publish = {}};
+  }
+};
+
+}  // namespace
+
+StageType motion_prepare_stage() { return stage_type<MotionPrepareStage>(); }
+
+}  // namespace flowslide
