@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <type_traits>
+
+#include <omp.h>
 
 namespace flowslide::mpm {
 namespace {
@@ -34,6 +36,16 @@ void permute(std::vector<T>& a, const std::vector<std::int32_t>& order, std::vec
   scratch.resize(a.size());
   for (std::size_t i = 0; i < a.size(); ++i) scratch[i] = a[order[i]];
   a.swap(scratch);
+}
+
+/// Order of the points by `place`, below `places`, stable: a counting sort.
+void sort_by_place(BinningScratch& scratch, std::int64_t places) {
+  std::vector<std::int32_t> first(places + 1, 0);
+  for (const std::int64_t place : scratch.place) ++first[place + 1];
+  for (std::int64_t i = 0; i < places; ++i) first[i + 1] += first[i];
+  scratch.order.resize(scratch.place.size());
+  for (std::size_t i = 0; i < scratch.place.size(); ++i)
+    scratch.order[first[scratch.place[i]]++] = static_cast<std::int32_t>(i);
 }
 
 }  // namespace
@@ -71,37 +83,63 @@ void link_tiles(Grid<Dim>& grid, Tiling<Dim>& tiling) {
 template <int Dim>
 void bin_points(Points<Dim>& p, Grid<Dim>& grid, Tiling<Dim>& tiling, double basis_shift,
                 BinningScratch& scratch) {
+  constexpr int B = kBlockWidth<Dim>;
   const std::size_t n = p.size();
   scratch.key.resize(n);
-  scratch.order.resize(n);
+  scratch.place.resize(n);
   const double inverse = 1.0 / grid.h;
+  scratch.blocks.clear();
+  std::int32_t materials = 1;
   for (std::size_t i = 0; i < n; ++i) {
     Coordinate<Dim> block{};
-    for (int d = 0; d < Dim; ++d) {
+    std::int64_t cell = 0;
+    for (int d = Dim - 1; d >= 0; --d) {
       const double base = std::floor((p.x[d][i] - grid.origin[d]) * inverse - basis_shift);
-      if (!(std::abs(base) < kFarthest * kBlockWidth<Dim>)) {
+      if (!(std::abs(base) < kFarthest * B)) {
         throw NumericsError(
             fmt::format("particle {} (counted from 0 in order of id) has left for {:.3g} m "
                         "(farther than the grid can "
                         "number) check its stress, its velocity and the strength of its material",
                         p.index[i], p.x[d][i]));
       }
-      block[d] = static_cast<std::int32_t>(std::floor(base / kBlockWidth<Dim>));
+      block[d] = static_cast<std::int32_t>(std::floor(base / B));
+      cell = cell * B + (static_cast<std::int32_t>(base) - block[d] * B);
     }
     scratch.key[i] = pack<Dim>(block);
+    scratch.place[i] = cell;
+    materials = std::max(materials, p.material[i] + 1);
+    if (i == 0 || scratch.key[i] != scratch.key[i - 1]) scratch.blocks.push_back(scratch.key[i]);
   }
-  std::iota(scratch.order.begin(), scratch.order.end(), 0);
-  std::sort(scratch.order.begin(), scratch.order.end(), [&](std::int32_t a, std::int32_t b) {
-    if (scratch.key[a] != scratch.key[b]) return scratch.key[a] < scratch.key[b];
-    if (p.material[a] != p.material[b]) return p.material[a] < p.material[b];
-    return a < b;
-  });
+  std::sort(scratch.blocks.begin(), scratch.blocks.end());
+  scratch.blocks.erase(std::unique(scratch.blocks.begin(), scratch.blocks.end()),
+                       scratch.blocks.end());
+  std::int64_t tile = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i == 0 || scratch.key[i] != scratch.key[i - 1])
+      tile = std::lower_bound(scratch.blocks.begin(), scratch.blocks.end(), scratch.key[i]) -
+             scratch.blocks.begin();
+    scratch.place[i] += power<Dim>(B) * (tile * materials + p.material[i]);
+  }
+  sort_by_place(scratch, power<Dim>(B) * materials * std::int64_t(scratch.blocks.size()));
+
+  std::vector<std::vector<double>*> reals;
+  std::vector<std::vector<std::int32_t>*> integers;
   visit_arrays(p, [&](auto& array) {
     if constexpr (std::is_same_v<std::decay_t<decltype(array)>, std::vector<double>>)
-      permute(array, scratch.order, scratch.real);
+      reals.push_back(&array);
     else
-      permute(array, scratch.order, scratch.integer);
+      integers.push_back(&array);
   });
+  const auto arrays = static_cast<int>(reals.size() + integers.size());
+#pragma omp parallel for schedule(dynamic, 1) num_threads(static_cast <int>(scratch.copy.size()))
+  for (int i = 0; i < arrays; ++i) {
+    BinningScratch::Copy& copy = scratch.copy[omp_get_thread_num()];
+    const auto k = static_cast<std::size_t>(i);
+    if (k < reals.size())
+      permute(*reals[k], scratch.order, copy.real);
+    else
+      permute(*integers[k - reals.size()], scratch.order, copy.integer);
+  }
 
   tiling.tiles.clear();
   tiling.runs.clear();

@@ -95,9 +95,10 @@ template <int Dim, class Basis>
 /// `keep` is the share of its own velocity a point keeps in the step with aflip and flip. New
 /// positions go to `moved`, which may be p.x.
 template <int Dim, class Basis, Transfer kTransfer>
-void gather_tile(Points<Dim>& p, const Tile<Dim>& tile, const Grid<Dim>& grid, double dt,
-                 double keep, std::array<std::vector<double>, Dim>& moved,
-                 TileScratch<Dim>& scratch) {
+[[gnu::flatten]] void gather_tile(Points<Dim>& p, const Tile<Dim>& tile, const Grid<Dim>& grid,
+                                  double dt, double keep,
+                                  std::array<std::vector<double>, Dim>& moved,
+                                  TileScratch<Dim>& scratch) {
   constexpr int W = kLocalWidth<Dim, Basis>;
   using L = NodeLayout<Dim>;
   constexpr bool kKeep = kTransfer == Transfer::aflip || kTransfer == Transfer::flip;
@@ -151,8 +152,9 @@ void gather_tile(Points<Dim>& p, const Tile<Dim>& tile, const Grid<Dim>& grid, d
 
 /// L = sum v_i grad w of a tile's points from the velocities in `nodes`, into scratch.gradient.
 template <int Dim, class Basis>
-void gather_gradient(const Points<Dim>& p, const Tile<Dim>& tile, const Grid<Dim>& grid,
-                     const Node* nodes, TileScratch<Dim>& scratch) {
+[[gnu::flatten]] void gather_gradient(const Points<Dim>& p, const Tile<Dim>& tile,
+                                      const Grid<Dim>& grid, const Node* nodes,
+                                      TileScratch<Dim>& scratch) {
   constexpr int W = kLocalWidth<Dim, Basis>;
   Window<Dim, W> velocity;
   velocity.read(tile, nodes, NodeLayout<Dim>::momentum);
@@ -174,8 +176,9 @@ void gather_gradient(const Points<Dim>& p, const Tile<Dim>& tile, const Grid<Dim
 
 /// sum w v of a tile's points from the velocities in `nodes`, into scratch.velocity.
 template <int Dim, class Basis>
-void interpolate_tile(const Points<Dim>& p, const Tile<Dim>& tile, const Grid<Dim>& grid,
-                      const Node* nodes, TileScratch<Dim>& scratch) {
+[[gnu::flatten]] void interpolate_tile(const Points<Dim>& p, const Tile<Dim>& tile,
+                                       const Grid<Dim>& grid, const Node* nodes,
+                                       TileScratch<Dim>& scratch) {
   constexpr int W = kLocalWidth<Dim, Basis>;
   Window<Dim, W> velocity;
   velocity.read(tile, nodes, NodeLayout<Dim>::momentum);

@@ -71,8 +71,9 @@ template <int Dim, class Basis, Scatter kScatter>
 /// is added to the normal stresses of each point of the tile: what F-bar does to the force. With
 /// Scatter::velocity `velocity` is what the points have.
 template <int Dim, class Basis, Scatter kScatter>
-void scatter_tile(const Points<Dim>& p, const Tile<Dim>& tile, const double* mean_change,
-                  const TileVelocity<Dim>* velocity, const Grid<Dim>& grid, Node* nodes) noexcept {
+[[gnu::flatten]] void scatter_tile(const Points<Dim>& p, const Tile<Dim>& tile,
+                                   const double* mean_change, const TileVelocity<Dim>* velocity,
+                                   const Grid<Dim>& grid, Node* nodes) noexcept {
   constexpr int N = Basis::nodes, W = kLocalWidth<Dim, Basis>, T = power<Dim>(N);
   // Sums of the nodes of one point stay in registers while points of the same cell follow.
   constexpr bool kHold = T <= 16;

@@ -63,9 +63,9 @@ struct StepScratch {
   std::vector<TileScratch<Dim>> tile;    ///< per thread
   std::vector<StressWork> stress_work;   ///< per tile
   std::vector<GridWork<Dim>> grid_work;  ///< per block
-  std::vector<Node> second, third;  ///< as grid.nodes, where update or transfer need them
+  std::vector<Node> second, third;       ///< as grid.nodes, where update or transfer need them
   std::array<std::vector<double>, Dim> moved;  ///< new positions of musl [m]
-  explicit StepScratch(int threads) : tile(threads) {}
+  explicit StepScratch(int threads) : tile(threads) { binning.copy.resize(threads); }
 };
 
 /// Time step by the point bound of docs/theory/time-step.md, the velocity and the strain limit [s].

@@ -17,9 +17,10 @@ using Lanes = std::conditional_t < requires {
 , double, Pack > ;
 
 template <int Dim, class M>
-StressWork update_run(Points<Dim>& p, const Tile<Dim>& tile, const MaterialRun& run,
-                      const SolverMaterial& material, const typename M::Constants& constants,
-                      double dt, const TileScratch<Dim>& s) noexcept {
+[[gnu::flatten]] StressWork update_run(Points<Dim>& p, const Tile<Dim>& tile,
+                                       const MaterialRun& run, const SolverMaterial& material,
+                                       const typename M::Constants& constants, double dt,
+                                       const TileScratch<Dim>& s) noexcept {
   using T = Lanes<M>;
   using State = typename M::template StateOf<T>;
   constexpr int V = kVoigt<Dim>, S = static_cast<int>(M::state_names.size());

@@ -28,8 +28,8 @@ inline constexpr int kSpans = power<Dim>(kBlockWidth<Dim> + 2);  ///< in the rea
 
 /// Knot span of every point of the tile, numbered inside the tile's window.
 template <int Dim, class Basis>
-void find_spans(const Points<Dim>& p, const Tile<Dim>& tile, const Grid<Dim>& grid,
-                SpanScratch& s) noexcept {
+[[gnu::flatten]] void find_spans(const Points<Dim>& p, const Tile<Dim>& tile, const Grid<Dim>& grid,
+                                 SpanScratch& s) noexcept {
   const double inverse = 1.0 / grid.h;
   const std::array<double, Dim> corner = window_corner<Dim>(tile);
   for (std::int32_t q = tile.first; q < tile.last; q += Pack::lanes) {
@@ -47,9 +47,9 @@ void find_spans(const Points<Dim>& p, const Tile<Dim>& tile, const Grid<Dim>& gr
 /// weighted by volume. `averaged(run)` tells which runs take part; `value(k, count)` gives the
 /// values of points [k, k + count) of the tile.
 template <int Dim, class Averaged, class Value>
-void average_over_spans(const Points<Dim>& p, const Tile<Dim>& tile,
-                        std::span<const MaterialRun> runs, SpanScratch& s, Averaged&& averaged,
-                        Value&& value) noexcept {
+[[gnu::flatten]] void average_over_spans(const Points<Dim>& p, const Tile<Dim>& tile,
+                                         std::span<const MaterialRun> runs, SpanScratch& s,
+                                         Averaged&& averaged, Value&& value) noexcept {
   if (std::none_of(runs.begin(), runs.end(), averaged)) {
     std::fill_n(s.change.begin(), tile.last - tile.first, 0.0);
     return;
