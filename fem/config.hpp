@@ -78,7 +78,7 @@ struct FemConfig {
   StabilisationConfig stabilisation;
   std::optional<double> end;      ///< [s]; the duration of the motion if left out
   double output_interval = 0.25;  ///< [s]
-  double courant = 0.9;
+  double courant = 0.5;
 };
 
 /// Relations that ranges cannot express. Throws InputError.

@@ -93,13 +93,14 @@ void BandFactor::factorise(const Sparse& matrix) {
       const std::int32_t shared = std::max(first, j - w);
       const double* a = row + (shared - first);
       const double* b = &rows_[static_cast<std::size_t>(j) * (w + 1)] + (shared - j + w);
-      double s = row[j - first];
+      const double start = row[j - first];
+      double s = start;
       for (std::int32_t k = 0; k < j - shared; ++k) s -= a[k] * b[k];
       if (j < i) {
         row[j - first] = s * inverse_[j];
         continue;
       }
-      if (!(s > 0.0 && std::isfinite(s)))
+      if (!(s > 1e-13 * start && std::isfinite(s)))
         throw NumericsError(fmt::format(
             "the matrix of the section is singular at unknown {} (its pivot is {:g}) a part of the "
             "section is not held, or pore pressure has no boundary",

@@ -214,7 +214,7 @@ void add_energy(Solver& s) {
 
 void start_motion(Solver& s) {
   std::fill(s.strain.begin(), s.strain.end(), 0.0);
-  s.dt = 1.0;
+  if (!is_set(s.dt)) s.dt = 1.0;
   Solver::ChunkSums unused;
   internal_forces(s, 0, static_cast<std::int32_t>(s.layout.elements.size()), unused);
 }

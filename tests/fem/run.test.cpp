@@ -1,0 +1,64 @@
+#include "model/history.hpp"
+#include "tests/fem/scene.hpp"
+#include "tests/support/scratch.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace flowslide;
+using namespace flowslide::fem;
+
+namespace {
+
+GroundMotion sine(double amplitude, double duration) {
+  GroundMotion m{.dt = 0.01, .acceleration = {}, .origin = "test"};
+  const auto samples = std::lround(duration / m.dt) + 1;
+  for (long i = 0; i < samples; ++i)
+    m.acceleration.push_back(amplitude * std::sin(4.0 * kPi * m.dt * static_cast<double>(i)));
+  return m;
+}
+
+}  // namespace
+
+TEST_CASE("A run writes a history that starts at rest and follows the ground", "[fem]") {
+  const SectionMesh s = section({.columns = 2, .rows = 4});
+  FemConfig c = config(sand(), 4.0);
+  c.output_interval = 0.1;
+  const Scratch folder;
+  const FemFacts f = run_fem(s, sine(1.0, 0.5), c, folder / "history.h5", 1, {});
+  CHECK(f.end_time == Approx(0.5));
+  CHECK(f.energy_error < 1e-4);  // changes of the step cost some
+  CHECK(f.out_of_balance < 1e-12);
+  const FemHistory h(folder / "history.h5");
+  REQUIRE(h.times().size() == 5);
+  CHECK(h.times()[1] == Approx(0.2));
+  CHECK(h.mesh().num_elements() == s.mesh.num_elements());
+  CHECK(h.gravity().displacement[7] == Vec2{0.0, 0.0});
+  CHECK(h.gravity().pore_pressure[0] == Approx(4.0 * 9810.0));
+  // the rigid base: integral of the motion, v = (1 - cos(w t)) a/w
+  const double w = 4.0 * kPi, t = 0.4;
+  CHECK(h.frame(3).displacement[1][0] == Approx((t - std::sin(w * t) / w) / w).epsilon(0.01));
+  CHECK(h.frame(3).displacement[1][1] == 0.0);
+}
+
+TEST_CASE("Free-field columns are not in the history", "[fem]") {
+  const SectionMesh s = section({.columns = 2, .rows = 4});
+  FemConfig c = config(sand(), 4.0);
+  c.sides.kind = SideKind::free_field;
+  c.end = 0.05;
+  const Scratch folder;
+  run_fem(s, sine(1.0, 0.5), c, folder / "history.h5", 1, {});
+  const FemHistory h(folder / "history.h5");
+  CHECK(h.mesh().num_nodes() == s.mesh.num_nodes());
+  CHECK(h.times().back() == Approx(0.05));
+}
+
+TEST_CASE("A stop request ends the run without a history", "[fem]") {
+  const std::atomic<bool> stop{true};
+  Progress progress;
+  progress.stop_requested = &stop;
+  const Scratch folder;
+  CHECK_THROWS_AS(
+      run_fem(section({}), sine(1.0, 0.5), config(sand(), 4.0), folder / "history.h5", 1, progress),
+      Interrupted);
+  CHECK_FALSE(std::filesystem::exists(folder / "history.h5"));
+}
