@@ -55,7 +55,7 @@ std::vector<VerificationCase> select(std::span<const VerificationCase> cases,
   };
   for (const std::string& name : names) {
     validate(std::any_of(cases.begin(), cases.end(), [&](const auto& c) { return fits(c, name); }),
-             "no verification case begins with '{}' (nothing would be verified) 'flowslide verify "
+             "there is no verification case '{}' (nothing would be verified) 'flowslide verify "
              "--list' lists them",
              name);
   }

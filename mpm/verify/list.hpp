@@ -6,5 +6,17 @@ namespace flowslide::mpm {
 
 std::vector<Check> verify_compaction(std::string_view name);
 std::vector<Check> verify_mirror(std::string_view name);
+std::vector<Check> verify_bar(std::string_view name);
+std::vector<Check> verify_incline(std::string_view name);
+std::vector<Check> verify_impact(std::string_view name);
+std::vector<Check> verify_rotation(std::string_view name);
+std::vector<Check> verify_rest(std::string_view name);
+std::vector<Check> verify_cantilever(std::string_view name);
+std::vector<Check> verify_bui(std::string_view name);
+std::vector<Check> verify_undrained(std::string_view name);
+std::vector<Check> verify_cut(std::string_view name);
+std::vector<Check> verify_prandtl(std::string_view name);
+std::vector<Check> verify_prandtl_mc(std::string_view name);
+std::vector<Check> verify_slope(std::string_view name);
 
 }  // namespace flowslide::mpm

@@ -1,0 +1,163 @@
+#include "mpm/verify/list.hpp"
+#include "mpm/verify/trial.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+/// Columns that stand against a smooth wall on a rough base and collapse when the other side is let
+/// go: the granular one of Bui et al. (2008), and undrained ones whose final reach and whose
+/// threshold are known from plasticity.
+namespace flowslide::mpm {
+namespace {
+
+constexpr double kRough = 1e6;  ///< friction coefficient of a base on which nothing slides
+
+/// Points of a column of length L0 and height H0 in a stress of its weight, sigma_h = k sigma_v.
+ParticleSet column(double length, double height, double cell, double density, double k) {
+  ParticleSet p;
+  fill(p, {0.0, 0.0, length, height}, 0.5 * cell, density);
+  for (std::size_t q = 0; q < p.size(); ++q) {
+    const double vertical = -density * kGravity * (height - p.position[q][1]);
+    p.stress[q] = {k * vertical, vertical, k * vertical, 0.0, 0.0, 0.0};
+  }
+  return p;
+}
+
+FlowConfig against_wall(double cell) {
+  FlowConfig config = free_space(cell);
+  config.gravity = kGravity;
+  config.ground.surface = {{0.0, 0.0}};
+  config.ground.friction = kRough;
+  config.left_roller = 0.0;
+  return config;
+}
+
+/// Height of the surface near x: that of the highest point within half a cell, plus half its size.
+double surface(const Points<2>& p, double x, double cell) {
+  double top = 0.0;
+  for (std::size_t q = 0; q < p.size(); ++q)
+    if (std::abs(p.x[0][q] - x) < 0.5 * cell) top = std::max(top, p.x[1][q] + 0.25 * cell);
+  return top;
+}
+
+/// Front as the x beyond which `share` of the mass lies, plus half a point.
+double front(const Points<2>& p, double cell, double share) {
+  std::vector<double> x = p.x[0];
+  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(x.size()));
+  std::nth_element(x.begin(), x.begin() + rank, x.end(), std::greater<>());
+  return x[static_cast<std::size_t>(rank)] + 0.25 * cell;
+}
+
+MaterialSpec tresca(double strength, double stiffness_ratio, double nu) {
+  return material("residual_strength", {{"youngs_modulus", stiffness_ratio * strength},
+                                        {"poisson_ratio", nu},
+                                        {"strength", strength},
+                                        {"soft_strength", strength},
+                                        {"residual_strain", 0.0}});
+}
+
+constexpr double kSoil = 2000.0;  ///< density of the undrained columns [kg/m3]
+
+/// L_f / L0 of an undrained column of aspect ratio a = H0/L0 and strength B = c / (rho g H0), let
+/// go slowly: local damping keeps inertia out.
+double final_length(double aspect, double b, int cells_in_height) {
+  const double height = 1.0, length = height / aspect, h = height / cells_in_height;
+  ParticleSet p = column(length, height, h, kSoil, 1.0);
+  p.materials = {tresca(b * kSoil * kGravity * height, 100.0, 0.45)};
+  FlowConfig config = against_wall(h);
+  config.damping = 0.7;
+  Trial trial(p, config);
+  double last = 0.0;
+  for (double time = 1.0; time <= 12.0; time += 1.0) {
+    trial.run_to(time);
+    const double now = front(trial.sim.points, h, 0.002);
+    if (now - last < 0.002 * length) break;
+    last = now;
+  }
+  return front(trial.sim.points, h, 0.002) / length;
+}
+
+/// Whether an undrained vertical cut of strength B = c / (rho g H) stands: it sags elastically and
+/// stops, or it goes on.
+bool cut_stands(double b, int cells_in_height) {
+  const double height = 1.0, h = height / cells_in_height;
+  ParticleSet p = column(2.0 * height, height, h, kSoil, 1.0);
+  p.materials = {tresca(b * kSoil * kGravity * height, 1000.0, 0.45)};
+  FlowConfig config = against_wall(h);
+  config.damping = 0.5;
+  Trial trial(p, config);
+  const double start = 2.0 * height, enough = 0.05 * height;
+  trial.run_to(1.5);
+  const double halfway = front(trial.sim.points, h, 0.0) - start;
+  if (halfway > enough) return false;
+  trial.run_to(3.0);
+  const double end = front(trial.sim.points, h, 0.0) - start;
+  return end < enough && end - halfway < 0.2 * halfway;
+}
+
+}  // namespace
+
+std::vector<Check> verify_bui(std::string_view name) {
+  CheckList checks(name);
+  constexpr double length = 0.2, height = 0.1, density = 2650.0, h = 0.0025;
+  constexpr double nu = 0.3, bulk = 0.7e6;
+  ParticleSet p = column(length, height, h, density, nu / (1.0 - nu));
+  p.materials = {material("mohr_coulomb", {{"youngs_modulus", 3.0 * bulk * (1.0 - 2.0 * nu)},
+                                           {"poisson_ratio", nu},
+                                           {"cohesion", 0.0},
+                                           {"friction_angle", 19.8 * kPi / 180.0}})};
+  Trial trial(p, against_wall(h));
+  trial.run_to(0.8);
+  // Free surface of the experiment with aluminium bars, digitised.
+  constexpr std::array<std::array<double, 2>, 11> profile{{{0.0, 0.0992},
+                                                           {0.06, 0.0890},
+                                                           {0.10, 0.0776},
+                                                           {0.14, 0.0665},
+                                                           {0.18, 0.0539},
+                                                           {0.22, 0.0425},
+                                                           {0.26, 0.0307},
+                                                           {0.30, 0.0215},
+                                                           {0.34, 0.0136},
+                                                           {0.38, 0.0079},
+                                                           {0.42, 0.0022}}};
+  double sum = 0.0;
+  for (const auto& [x, y] : profile)
+    sum += std::pow(surface(trial.sim.points, std::max(x, 0.5 * h), h) - y, 2);
+  constexpr double toe = 0.442;
+  checks.near("toe", front(trial.sim.points, h, 0.001), toe, 0.05 * (toe - length), "m");
+  checks.error("surface_rms", std::sqrt(sum / profile.size()) / height, 0.03);
+  checks.error("energy_balance", trial.balances().energy_error, 0.01);
+  return checks.take();
+}
+
+std::vector<Check> verify_undrained(std::string_view name) {
+  // Lubrication theory and its slip-line correction bound the reach: docs/theory.
+  struct Row {
+    double aspect, b, corrected, lubrication;
+  };
+  CheckList checks(name);
+  for (const Row& row :
+       {Row{1.0, 0.05, 2.40, 2.82}, Row{1.0, 0.10, 1.72, 2.24}, Row{1.0, 0.15, 1.37, 1.96},
+        Row{2.0, 0.10, 2.00, 2.82}, Row{2.0, 0.15, 1.56, 2.47}, Row{4.0, 0.15, 1.73, 3.11}}) {
+    const double low = 0.95 * row.corrected, high = 1.05 * row.lubrication;
+    checks.near(fmt::format("length_a{:g}_b{:.2f}", row.aspect, row.b),
+                final_length(row.aspect, row.b, 20), 0.5 * (low + high), 0.5 * (high - low));
+  }
+  return checks.take();
+}
+
+std::vector<Check> verify_cut(std::string_view name) {
+  CheckList checks(name);
+  double fell = 0.0, stood = 1.0;
+  for (const double b : {0.235, 0.245, 0.255, 0.265, 0.275, 0.285, 0.295}) {
+    if (cut_stands(b, 16)) {
+      stood = b;
+      break;
+    }
+    fell = b;
+  }
+  checks.near("threshold", 0.5 * (fell + stood), 0.265, 0.01);
+  return checks.take();
+}
+
+}  // namespace flowslide::mpm
