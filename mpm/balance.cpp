@@ -9,19 +9,36 @@ namespace flowslide::mpm {
 /// The paper's runout rule: the fifth-farthest point, so that a few lone points do not decide.
 constexpr std::ptrdiff_t kFrontRank = 5;
 
+/// D of a point per direction [cells^2], with which its affine field carries energy.
+template <int Dim>
+std::array<double, Dim> affine_moments(const Simulation<Dim>& s, std::size_t q) {
+  return visit_basis(s.settings.basis, [&]<class Basis>(Basis) {
+    std::array<double, Dim> moment;
+    for (int d = 0; d < Dim; ++d) {
+      double w[Basis::nodes], g[Basis::nodes];
+      const double x = (s.points.x[d][q] - s.grid.origin[d]) / s.grid.h;
+      const double in_support = x - base_node<Basis>(x);
+      Basis::evaluate(in_support, w, g);
+      moment[d] = second_moment<Basis>(in_support, w);
+    }
+    return moment;
+  });
+}
+
 template <int Dim>
 PointSums<Dim> sum_points(const Simulation<Dim>& s) {
   const Points<Dim>& p = s.points;
-  const double affine = 0.25 * s.grid.h * s.grid.h;
+  const double h2 = s.grid.h * s.grid.h;
   PointSums<Dim> r;
   for (std::size_t q = 0; q < p.size(); ++q) {
-    double v2 = 0.0, c2 = 0.0, lift = 0.0;
+    double v2 = 0.0, affine2 = 0.0, lift = 0.0;
+    const std::array<double, Dim> moment = affine_moments(s, q);
     for (int d = 0; d < Dim; ++d) {
       v2 += p.v[d][q] * p.v[d][q];
       lift -= s.settings.gravity[d] * p.x[d][q];
       r.momentum[d] += p.mass[q] * p.v[d][q];
     }
-    for (const auto& c : p.c) c2 += c[q] * c[q];
+    for (int i = 0; i < Dim * Dim; ++i) affine2 += h2 * moment[i % Dim] * p.c[i][q] * p.c[i][q];
     Stress<Dim> sigma;
     for (int k = 0; k < kVoigt<Dim>; ++k) sigma[k] = p.sigma[k][q];
     const Elasticity& e = s.materials[p.material[q]].elastic;
@@ -29,10 +46,10 @@ PointSums<Dim> sum_points(const Simulation<Dim>& s) {
     const double stored =
         p.volume[q] * (mean * mean / (2.0 * e.bulk) + j2(sigma) / (2.0 * e.shear));
     r.mass += p.mass[q];
-    r.kinetic += 0.5 * p.mass[q] * (v2 + affine * c2);
+    r.kinetic += 0.5 * p.mass[q] * (v2 + affine2);
     r.potential += p.mass[q] * lift;
     r.recoverable += stored;
-    if (!std::isfinite(v2 + c2 + lift + stored) && r.finite) {
+    if (!std::isfinite(v2 + affine2 + lift + stored) && r.finite) {
       r.finite = false;
       r.first_bad = p.index[q];
     }
@@ -99,7 +116,10 @@ MpmSample sample(const Simulation<Dim>& s, const Reference<Dim>& reference,
 }
 
 template PointSums<2> sum_points<2>(const Simulation<2>&);
+template PointSums<3> sum_points<3>(const Simulation<3>&);
 template MpmSample sample<2>(const Simulation<2>&, const Reference<2>&, const std::vector<bool>&,
+                             std::vector<double>&);
+template MpmSample sample<3>(const Simulation<3>&, const Reference<3>&, const std::vector<bool>&,
                              std::vector<double>&);
 
 }  // namespace flowslide::mpm

@@ -11,7 +11,7 @@ namespace flowslide::mpm {
 template <int Dim>
 struct PointSums {
   double mass = 0.0;                   ///< [kg]
-  double kinetic = 0.0;                ///< with the affine field: m/2 (|v|^2 + h^2/4 C:C) [J]
+  double kinetic = 0.0;                ///< with the affine field: m/2 (|v|^2 + D C:C) [J]
   double potential = 0.0;              ///< -sum m g.x [J]
   double recoverable = 0.0;            ///< sum V (p^2 / 2K + J2 / 2G), total stress [J]
   std::array<double, Dim> momentum{};  ///< [N s]

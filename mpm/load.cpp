@@ -52,22 +52,24 @@ StateSource state_source(const MaterialSpec& spec, const ParticleSet& particles)
 
 }  // namespace
 
-Simulation<2> make_simulation(const ParticleSet& particles, const FlowConfig& config) {
+template <int Dim>
+Simulation<Dim> make_simulation(const ParticleSet& particles, const FlowConfig& config) {
   check(particles);
   check(config);
-  validate(particles.dim == 2,
-           "the particles are three-dimensional (this stage runs plane strain)");
+  validate(particles.dim == Dim, "the particles have {} dimensions (this run has {})",
+           particles.dim, Dim);
   validate(particles.size() > 0, "there are no particles to run");
 
-  Simulation<2> s;
+  Simulation<Dim> s;
   s.grid.h = config.cell;
-  s.grid.origin = config.grid_origin;
+  s.grid.origin.front() = config.grid_origin[0];
+  s.grid.origin.back() = config.grid_origin[1];
   s.settings.basis = config.basis;
   s.settings.transfer = config.transfer;
   s.settings.update = config.update;
   s.settings.flip_share = config.flip_share;
   s.settings.fmpm_order = config.fmpm_order;
-  s.settings.gravity = {0.0, -config.gravity, 0.0};
+  s.settings.gravity[Dim - 1] = -config.gravity;
   s.settings.courant = config.courant;
   s.settings.velocity_limit = config.velocity_limit;
   s.settings.strain_limit = config.strain_limit;
@@ -89,15 +91,15 @@ Simulation<2> make_simulation(const ParticleSet& particles, const FlowConfig& co
   }
 
   const std::size_t n = particles.size();
-  Points<2>& p = s.points;
+  Points<Dim>& p = s.points;
   visit_arrays(p, [&](auto& array) { array.assign(n, {}); });
   double density = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
-    for (int d = 0; d < 2; ++d) {
+    for (int d = 0; d < Dim; ++d) {
       p.x[d][i] = particles.position[i][d];
       p.v[d][i] = particles.velocity[i][d];
     }
-    for (int k = 0; k < 4; ++k) p.sigma[k][i] = particles.stress[i][k];
+    for (int k = 0; k < kVoigt<Dim>; ++k) p.sigma[k][i] = particles.stress[i][k];
     p.mass[i] = particles.mass[i];
     p.volume[i] = particles.volume[i];
     p.material[i] = particles.material[i];
@@ -112,20 +114,25 @@ Simulation<2> make_simulation(const ParticleSet& particles, const FlowConfig& co
                "material or per particle",
                particles.id[i], particles.materials[p.material[i]].name, source.names[k]);
     }
-    const double depth = s.ground.level(p.x[0][i]) - p.x[1][i];
+    const double depth = s.ground.level(p.x[0][i]) - p.x[Dim - 1][i];
     validate(!(depth > 0.5 * config.cell),
              "particle {} at ({:.2f}, {:.2f}) lies {:.2f} m inside the ground (it would be thrown "
              "out) lower "
              "ground.surface or raise the transfer box",
-             particles.id[i], p.x[0][i], p.x[1][i], depth);
+             particles.id[i], p.x[0][i], p.x[Dim - 1][i], depth);
     const Elasticity& e = s.materials[p.material[i]].elastic;
     s.last.max_wave2 =
         std::max(s.last.max_wave2, (e.bulk + 2.0 * e.shear) * p.volume[i] / p.mass[i]);
-    s.last.max_speed2 = std::max(s.last.max_speed2, p.v[0][i] * p.v[0][i] + p.v[1][i] * p.v[1][i]);
+    double speed2 = 0.0;
+    for (const auto& v : p.v) speed2 += v[i] * v[i];
+    s.last.max_speed2 = std::max(s.last.max_speed2, speed2);
   }
-  s.full_mass = density * config.cell * config.cell;
+  s.full_mass = density * std::pow(config.cell, Dim);
   return s;
 }
+
+template Simulation<2> make_simulation<2>(const ParticleSet&, const FlowConfig&);
+template Simulation<3> make_simulation<3>(const ParticleSet&, const FlowConfig&);
 
 void store_frame(const Simulation<2>& s, MpmFrame& frame) {
   const Points<2>& p = s.points;

@@ -202,7 +202,7 @@ TEST_CASE("Particles the solver cannot start from are named", "[mpm]") {
              Contains("'strength'") && Contains("liquefied"));
   CHECK_THAT(message([](auto& p, auto&) { p.materials[0].law = "jelly"; }), Contains("jelly"));
   CHECK_THAT(message([](auto& p, auto&) { resize(p, 0); }), Contains("no particles"));
-  CHECK_THAT(message([](auto& p, auto&) { p.dim = 3; }), Contains("three-dimensional"));
+  CHECK_THAT(message([](auto& p, auto&) { p.dim = 3; }), Contains("3 dimensions"));
   CHECK_THAT(message([](auto&, auto& c) { c.ground.surface.clear(); }), Contains("ground.surface"));
   CHECK_THAT(message([](auto&, auto& c) {
                c.ground.surface = {{1.0, 0.0}, {0.0, 0.0}};
