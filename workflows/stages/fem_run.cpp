@@ -1,0 +1,55 @@
+#include "fem/run.hpp"
+#include "model/history.hpp"
+#include "model/motion_file.hpp"
+#include "workflows/stages/stage_list.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace flowslide {
+namespace {
+
+struct FemRun {
+  static constexpr std::string_view name = "fem.run";
+  static constexpr std::string_view doc =
+      "Gravity and shaking of a saturated section, with the finite element method.";
+  static constexpr int version = 1;
+  static constexpr bool checkpoints = false;
+  using Config = FemConfig;
+  struct Inputs {
+    Artifact<SectionMesh> mesh;
+    Artifact<GroundMotion> motion;
+    void visit(auto&& port) {
+      port("mesh", mesh);
+      port("motion", motion);
+    }
+  };
+  struct Outputs {
+    Artifact<FemHistory> history{"history.h5"};
+    void visit(auto&& port) { port("history", history); }
+  };
+  static void check(const Config& config) { flowslide::check(config); }
+  static StageResult run(const RunContext& context, const Config& config, const Inputs& in,
+                         const Outputs& out) {
+    const FemFacts f = run_fem(read_section_mesh(in.mesh.path), read_motion_file(in.motion.path),
+                               config, out.history.path, context.threads, context.progress);
+    const nlohmann::ordered_json facts = {{"fem_end_s", f.end_time},
+                                          {"fem_steps", f.steps},
+                                          {"fem_smallest_step_s", f.smallest_step},
+                                          {"fem_largest_step_s", f.largest_step},
+                                          {"fem_out_of_balance", f.out_of_balance},
+                                          {"fem_energy_error", f.energy_error},
+                                          {"fem_base_work_j", f.base_work},
+                                          {"fem_damping_work_j", f.damping_work},
+                                          {"fem_kinetic_energy_j", f.kinetic_energy},
+                                          {"fem_sub_steps", f.sub_steps},
+                                          {"fem_sub_steps_at_floor", f.floored},
+                                          {"fem_seconds", f.seconds}};
+    return {.facts = facts.dump(), .publish = {}};
+  }
+};
+
+}  // namespace
+
+StageType fem_run_stage() { return stage_type<FemRun>(); }
+
+}  // namespace flowslide
