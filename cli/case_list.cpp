@@ -1,6 +1,7 @@
 #include "cli/case_list.hpp"
 
 #include "mpm/verify/cases.hpp"
+#include "section/verify/cases.hpp"
 
 namespace flowslide::cli {
 namespace {
@@ -15,6 +16,7 @@ void append(std::vector<T>& list, std::vector<T> more) {
 std::vector<VerificationCase> all_verification_cases() {
   std::vector<VerificationCase> cases;
   append(cases, mpm_cases());
+  append(cases, section_cases());
   return cases;
 }
 
