@@ -13,44 +13,30 @@ double Ground::level(double at) const {
   return height[right - 1] + t * (height[right] - height[right - 1]);
 }
 
-double Ground::slope(double at) const {
-  if (at <= x.front() || at >= x.back()) return 0.0;
-  const auto right = std::upper_bound(x.begin(), x.end(), at) - x.begin();
-  return (height[right] - height[right - 1]) / (x[right] - x[right - 1]);
-}
-
-template <int Dim>
-void list_boundary_nodes(Grid<Dim>& grid, const Ground& ground, const Rollers& rollers) {
-  constexpr int B = kBlockWidth<Dim>;
-  const double tolerance = 1e-9 * grid.h;
-  grid.boundary.clear();
-  grid.boundary_first.clear();
-  for (const Coordinate<Dim>& block : grid.blocks) {
-    grid.boundary_first.push_back(static_cast<std::int32_t>(grid.boundary.size()));
-    for (int n = 0; n < kBlockNodes<Dim>; ++n) {
-      std::array<double, Dim> at{};
-      for (int d = 0, rest = n; d < Dim; ++d, rest /= B)
-        at[d] = grid.origin[d] + grid.h * (block[d] * B + rest % B);
-      const bool wall = at[0] <= rollers.left + tolerance || at[0] >= rollers.right - tolerance;
-      // The wall first: where it meets the ground, both conditions act one after the other.
-      if (wall) {
-        BoundaryNode<Dim> node{n, 1, {}, 0.0};
-        node.normal[0] = 1.0;
-        grid.boundary.push_back(node);
-      }
-      if (at[Dim - 1] <= ground.level(at[0]) + tolerance) {
-        const double slope = ground.slope(at[0]), length = std::sqrt(1.0 + slope * slope);
-        BoundaryNode<Dim> node{n, 0, {}, ground.friction};
-        node.normal[0] = wall ? 0.0 : -slope / length;
-        node.normal[Dim - 1] = wall ? 1.0 : 1.0 / length;
-        grid.boundary.push_back(node);
-      }
+Nearest Ground::nearest(double at, double elevation) const {
+  double best = std::numeric_limits<double>::infinity();
+  std::array<double, 2> normal{0.0, 1.0};
+  const auto offer = [&](double dx, double dy, const std::array<double, 2>& n) {
+    const double distance = std::hypot(dx, dy);
+    // At a corner two pieces are equally near: the one that faces the point more squarely counts.
+    const bool squarer =
+        std::abs(dx * n[0] + dy * n[1]) > std::abs(dx * normal[0] + dy * normal[1]);
+    if (distance < best - 1e-12 || (distance < best + 1e-12 && squarer)) {
+      best = std::min(best, distance);
+      normal = n;
     }
+  };
+  offer(std::max(at - x.front(), 0.0), elevation - height.front(), {0.0, 1.0});
+  offer(std::min(at - x.back(), 0.0), elevation - height.back(), {0.0, 1.0});
+  for (std::size_t i = 0; i + 1 < x.size(); ++i) {
+    const double dx = x[i + 1] - x[i], dy = height[i + 1] - height[i];
+    const double length = std::hypot(dx, dy);
+    if (!(length > 0.0)) continue;
+    const double along = ((at - x[i]) * dx + (elevation - height[i]) * dy) / (length * length);
+    const double t = std::clamp(along, 0.0, 1.0);
+    offer(at - x[i] - t * dx, elevation - height[i] - t * dy, {-dy / length, dx / length});
   }
-  grid.boundary_first.push_back(static_cast<std::int32_t>(grid.boundary.size()));
+  return {elevation >= level(at) ? best : -best, normal};
 }
-
-template void list_boundary_nodes<2>(Grid<2>&, const Ground&, const Rollers&);
-template void list_boundary_nodes<3>(Grid<3>&, const Ground&, const Rollers&);
 
 }  // namespace flowslide::mpm

@@ -35,6 +35,7 @@ void transfer_fields(Archive& a, Sim& s, Run& r) {
   a.array(s.tiling.tiles);
   a.array(s.tiling.run_first);
   a.array(s.tiling.runs);
+  a.array(s.contact.impulse);
   visit_arrays(s.points, [&](auto& array) { a.array(array); });
 }
 

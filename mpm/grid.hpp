@@ -36,23 +36,12 @@ struct NodeLayout {
 template <int Dim>
 using Coordinate = std::array<std::int32_t, Dim>;  ///< block or node coordinate
 
-/// A node on the boundary and what holds there.
-template <int Dim>
-struct BoundaryNode {
-  std::int32_t local;              ///< node within its block
-  std::uint8_t kind;               ///< 0 frictional ground, 1 roller
-  std::array<double, Dim> normal;  ///< unit, out of the ground, into the soil
-  double friction;                 ///< Coulomb coefficient [-]
-};
-
 template <int Dim>
 struct Grid {
   double h = 0.0;                            ///< spacing [m]
   std::array<double, Dim> origin{};          ///< position of node 0 [m]
   std::vector<Coordinate<Dim>> blocks;       ///< active blocks, ascending
   std::vector<Node> nodes;                   ///< kBlockNodes per block
-  std::vector<std::int32_t> boundary_first;  ///< per block, into boundary; one more at the end
-  std::vector<BoundaryNode<Dim>> boundary;
 };
 
 /// A tile is a block that owns points. They may have drifted up to one cell out of it.

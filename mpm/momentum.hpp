@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-/// Momentum balance on the grid: v* = (m v + dt (f + m b)) / m, then boundaries.
+/// Momentum balance on the grid: v* = (m v + dt (f + m b)) / m; contact.hpp then holds it at walls.
 namespace flowslide::mpm {
 
 /// What the grid did in one step; the sums close the balances of energy and momentum.
@@ -44,67 +44,12 @@ inline double damping_force(double factor, double force, double velocity) noexce
   return factor == 0.0 ? 0.0 : -factor * std::copysign(std::abs(force), velocity);
 }
 
-/// Velocity after a boundary condition: a roller keeps the tangential part, the ground pushes with
-/// an impulse m |v_n| and rubs with at most mu times that.
-template <int Dim>
-std::array<double, Dim> constrained(const BoundaryNode<Dim>& node,
-                                    std::array<double, Dim> v) noexcept {
-  double normal = 0.0, speed = 0.0;
-  for (int d = 0; d < Dim; ++d) normal += v[d] * node.normal[d];
-  if (node.kind == 0 && normal >= 0.0) return v;
-  for (int d = 0; d < Dim; ++d) {
-    v[d] -= normal * node.normal[d];
-    speed += v[d] * v[d];
-  }
-  if (node.kind != 0) return v;
-  speed = std::sqrt(speed);
-  const double keep =
-      speed > 0.0 ? std::max(0.0, 1.0 - node.friction * std::abs(normal) / speed) : 0.0;
-  for (double& component : v) component *= keep;
-  return v;
-}
-
-/// Velocities of a block's nodes before the step [m/s].
-template <int Dim>
-using BlockVelocity = std::array<std::array<double, kBlockNodes<Dim>>, Dim>;
-
-/// Applies the boundary conditions of a block and moves the work of all forces to the constrained
-/// path: over a step a force f does f (v + v*)/2 dt with v* the velocity after constraints.
-template <int Dim>
-void constrain(Grid<Dim>& grid, std::size_t block, const MomentumSettings& s, double mass_floor,
-               const BlockVelocity<Dim>& before, GridWork<Dim>& work) noexcept {
-  using L = NodeLayout<Dim>;
-  Node* nodes = grid.nodes.data() + block * kBlockNodes<Dim>;
-  const std::int32_t end = grid.boundary_first[block + 1];
-  for (std::int32_t b = grid.boundary_first[block]; b < end;) {
-    const std::int32_t local = grid.boundary[b].local;
-    auto& q = nodes[local].q;
-    const double m = q[L::mass];
-    std::array<double, Dim> free{};
-    for (int d = 0; d < Dim; ++d) free[d] = q[L::momentum + d];
-    std::array<double, Dim> held = free;
-    for (; b < end && grid.boundary[b].local == local; ++b)
-      held = constrained<Dim>(grid.boundary[b], held);
-    if (!(m > mass_floor)) continue;
-    for (int d = 0; d < Dim; ++d) {
-      const double change = held[d] - free[d], f = q[L::force + d], weight = m * s.gravity[d];
-      const double drag = damping_force(s.cundall, f + weight, before[d][local]);
-      work.internal_end += s.dt * f * change;
-      work.gravity += 0.5 * s.dt * weight * change;
-      work.damping += 0.5 * s.dt * drag * change;
-      work.boundary += 0.5 * m * change * (before[d][local] + held[d]);
-      work.boundary_impulse[d] += m * change;
-      q[L::momentum + d] = held[d];
-    }
-  }
-}
-
+/// Velocities of a block's nodes after the step, and their change in place of the force.
 template <int Dim>
 GridWork<Dim> update_momentum(Grid<Dim>& grid, std::size_t block, const MomentumSettings& s,
                               double full_mass) noexcept {
   using L = NodeLayout<Dim>;
   GridWork<Dim> work;
-  BlockVelocity<Dim> before;
   Node* nodes = grid.nodes.data() + block * kBlockNodes<Dim>;
   const double floor = kMassFloor * full_mass;
   for (int n = 0; n < kBlockNodes<Dim>; ++n) {
@@ -125,14 +70,10 @@ GridWork<Dim> update_momentum(Grid<Dim>& grid, std::size_t block, const Momentum
       work.damping += drag * path;
       work.gravity_impulse[d] += weight * s.dt;
       work.boundary_impulse[d] += (f + drag) * s.dt;
-      before[d][n] = v;
       q[L::momentum + d] = v_new;
+      q[L::force + d] = v_new - v;
     }
   }
-  constrain<Dim>(grid, block, s, floor, before, work);
-  for (int n = 0; n < kBlockNodes<Dim>; ++n)
-    for (int d = 0; d < Dim; ++d)
-      nodes[n].q[L::force + d] = nodes[n].q[L::momentum + d] - before[d][n];
   return work;
 }
 

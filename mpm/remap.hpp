@@ -28,20 +28,9 @@ void clear_nodes(std::vector<Node>& nodes, std::int32_t blocks) {
                 sizeof(Node) * kBlockNodes<Dim>);
 }
 
-/// Velocity after the boundary conditions of a node, without friction where `slip`.
-template <int Dim, class Velocity>
-void constrain_block(const Grid<Dim>& grid, std::int32_t block, bool slip, Velocity&& velocity) {
-  for (std::int32_t b = grid.boundary_first[block]; b < grid.boundary_first[block + 1]; ++b) {
-    BoundaryNode<Dim> node = grid.boundary[b];
-    if (slip) node.friction = 0.0;
-    velocity(node.local,
-             [&](const std::array<double, Dim>& v) { return constrained<Dim>(node, v); });
-  }
-}
-
 /// Velocities of the points as `nodes` see them, boundary conditions included.
 template <int Dim, class Basis>
-void map_velocities(const Simulation<Dim>& s, std::vector<Node>& nodes) {
+void map_velocities(Simulation<Dim>& s, std::vector<Node>& nodes) {
   using L = NodeLayout<Dim>;
   const auto blocks = static_cast<std::int32_t>(s.grid.blocks.size());
   clear_nodes<Dim>(nodes, blocks);
@@ -57,12 +46,13 @@ void map_velocities(const Simulation<Dim>& s, std::vector<Node>& nodes) {
       const double inverse = block[n].q[L::mass] > floor ? 1.0 / block[n].q[L::mass] : 0.0;
       for (int d = 0; d < Dim; ++d) block[n].q[L::momentum + d] *= inverse;
     }
-    constrain_block<Dim>(s.grid, b, false, [&](std::int32_t n, auto&& hold) {
-      std::array<double, Dim> v;
-      for (int d = 0; d < Dim; ++d) v[d] = block[n].q[L::momentum + d];
-      v = hold(v);
-      for (int d = 0; d < Dim; ++d) block[n].q[L::momentum + d] = v[d];
-    });
+  }
+#pragma omp single
+  {
+    push_out(nodes, s.contact, s.full_mass, false);
+    for (std::size_t k = 0; k < s.contact.nodes.size(); ++k)
+      for (int d = 0; d < Dim; ++d)
+        nodes[s.contact.nodes[k]].q[L::momentum + d] = s.contact.velocity[k][d];
   }
 }
 
@@ -71,7 +61,7 @@ void map_velocities(const Simulation<Dim>& s, std::vector<Node>& nodes) {
 /// Momentum stays: the sum of m (I - P) v is zero.
 template <int Dim, class Basis>
 void approach_full_mass(Simulation<Dim>& s, std::vector<Node>& rest, std::vector<Node>& mapped,
-                        std::vector<GridWork<Dim>>& work, TileScratch<Dim>& mine) {
+                        GridWork<Dim>& work, TileScratch<Dim>& mine) {
   using L = NodeLayout<Dim>;
   const auto blocks = static_cast<std::int32_t>(s.grid.blocks.size());
   const double floor = kMassFloor * s.full_mass;
@@ -100,18 +90,16 @@ void approach_full_mass(Simulation<Dim>& s, std::vector<Node>& rest, std::vector
       }
     }
   }
-#pragma omp for schedule(dynamic, 8)
-  for (std::int32_t b = 0; b < blocks; ++b) {
-    Node* block = s.grid.nodes.data() + std::size_t(b) * kBlockNodes<Dim>;
-    constrain_block<Dim>(s.grid, b, true, [&](std::int32_t n, auto&& hold) {
-      std::array<double, Dim> v;
-      for (int d = 0; d < Dim; ++d) v[d] = block[n].q[L::momentum + d];
-      const std::array<double, Dim> held = hold(v);
+#pragma omp single
+  {
+    push_out(s.grid.nodes, s.contact, s.full_mass, true);
+    for (std::size_t k = 0; k < s.contact.nodes.size(); ++k) {
+      auto& q = s.grid.nodes[s.contact.nodes[k]].q;
       for (int d = 0; d < Dim; ++d) {
-        work[b].boundary_impulse[d] += block[n].q[L::mass] * (held[d] - v[d]);
-        block[n].q[L::momentum + d] = held[d];
+        work.boundary_impulse[d] += q[L::mass] * (s.contact.velocity[k][d] - q[L::momentum + d]);
+        q[L::momentum + d] = s.contact.velocity[k][d];
       }
-    });
+    }
   }
 }
 

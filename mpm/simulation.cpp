@@ -50,7 +50,10 @@ void prepare(Simulation<Dim>& s, StepScratch<Dim>& scratch, bool rebin) {
   } else {
     link_tiles<Dim>(s.grid, s.tiling);
   }
-  list_boundary_nodes<Dim>(s.grid, s.ground, s.rollers);
+  visit_basis(s.settings.basis, [&]<class Basis>(Basis) {
+    place_walls<Dim, Basis>(s.grid, s.ground, s.rollers, s.contact);
+  });
+  if (rebin) s.contact.impulse.assign(s.contact.walls.size(), {});
   std::size_t most = 0;
   for (const Tile<Dim>& t : s.tiling.tiles) most = std::max<std::size_t>(most, t.last - t.first);
   most += Pack::lanes;
@@ -83,6 +86,7 @@ void advance(Simulation<Dim>& s, StepScratch<Dim>& scratch) {
   for (const StressWork& w : scratch.stress_work) stress.add(w);
   GridWork<Dim> grid;
   for (const GridWork<Dim>& w : scratch.grid_work) grid.add(w);
+  grid.add(scratch.contact_work);
   if (s.settings.update == Update::usf) {
     // The force is that of the stress after the update, the strain that of the velocity before.
     std::swap(stress.power_start, stress.power_end);

@@ -1,6 +1,6 @@
 #pragma once
 #include "mpm/binning.hpp"
-#include "mpm/boundary.hpp"
+#include "mpm/contact.hpp"
 #include "mpm/momentum.hpp"
 #include "mpm/stress.hpp"
 
@@ -41,6 +41,7 @@ struct Simulation {
   Tiling<Dim> tiling;
   Ground ground;
   Rollers rollers;
+  Contact<Dim> contact;
   StepSettings settings;
   double full_mass = 0.0;  ///< mass of a full cell [kg], the scale of the mass floor
 
@@ -63,7 +64,8 @@ struct StepScratch {
   std::vector<TileScratch<Dim>> tile;    ///< per thread
   std::vector<StressWork> stress_work;   ///< per tile
   std::vector<GridWork<Dim>> grid_work;  ///< per block
-  std::vector<Node> second, third;       ///< as grid.nodes, where update or transfer need them
+  GridWork<Dim> contact_work;
+  std::vector<Node> second, third;  ///< as grid.nodes, where update or transfer need them
   std::array<std::vector<double>, Dim> moved;  ///< new positions of musl [m]
   explicit StepScratch(int threads) : tile(threads) { binning.copy.resize(threads); }
 };

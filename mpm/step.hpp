@@ -95,8 +95,10 @@ void step(Simulation<Dim>& s, StepScratch<Dim>& scratch) {
 #pragma omp for schedule(dynamic, 8)
     for (std::int32_t b = 0; b < blocks; ++b)
       scratch.grid_work[b] = update_momentum<Dim>(s.grid, b, momentum, s.full_mass);
+#pragma omp single
+    scratch.contact_work = hold_at_walls(s.grid, s.contact, momentum, s.full_mass);
     if (s.settings.transfer == Transfer::fmpm)
-      approach_full_mass<Dim, Basis>(s, scratch.second, scratch.third, scratch.grid_work, mine);
+      approach_full_mass<Dim, Basis>(s, scratch.second, scratch.third, scratch.contact_work, mine);
 #pragma omp for schedule(dynamic, 1)
     for (std::int32_t i = 0; i < tiles; ++i) {
       const Tile<Dim>& tile = s.tiling.tiles[i];

@@ -1,4 +1,3 @@
-#include "mpm/momentum.hpp"
 #include "tests/mpm/scene.hpp"
 
 #include <catch2/catch.hpp>
@@ -13,53 +12,105 @@ TEST_CASE("The ground is a polyline, level beyond its ends", "[mpm]") {
   CHECK(g.level(10.0 - 1e-9) == Approx(5.0));
   CHECK(g.level(10.0 + 1e-9) == Approx(1.0));
   CHECK(g.level(99.0) == 1.0);
-  CHECK(g.slope(4.0) == Approx(0.5));
-  CHECK(g.slope(15.0) == 0.0);
-  CHECK(g.slope(-1.0) == 0.0);
 }
 
-TEST_CASE("A node on the ground is pushed but not pulled, and rubbed by Coulomb", "[mpm]") {
-  const BoundaryNode<2> ground{0, 0, {0.0, 1.0}, 0.5};
-  using V = std::array<double, 2>;
-  CHECK(constrained<2>(ground, V{3.0, 1.0}) == V{3.0, 1.0});   // leaves
-  CHECK(constrained<2>(ground, V{3.0, -2.0}) == V{2.0, 0.0});  // slides: loses mu v_n
-  CHECK(constrained<2>(ground, V{-3.0, -2.0}) == V{-2.0, 0.0});
-  CHECK(constrained<2>(ground, V{0.9, -2.0}) == V{0.0, 0.0});  // sticks
-  const BoundaryNode<2> wall{0, 1, {1.0, 0.0}, 0.0};
-  CHECK(constrained<2>(wall, V{3.0, -2.0}) == V{0.0, -2.0});
-  CHECK(constrained<2>(wall, V{-3.0, -2.0}) == V{0.0, -2.0});
-  const double r = std::sqrt(0.5);
-  const BoundaryNode<2> slope{0, 0, {-r, r}, 0.0};
-  const V along = constrained<2>(slope, V{1.0, 0.0});  // up a slope of 45 degrees
-  CHECK(along[0] == Approx(0.5));
-  CHECK(along[1] == Approx(0.5));
+TEST_CASE("The nearest piece of the ground gives distance and normal", "[mpm]") {
+  const Ground g{{0.0, 10.0, 10.0, 20.0}, {0.0, 0.0, 5.0, 5.0}, 0.5};  // a step up
+  const auto check = [&](double x, double y, double distance, double nx, double ny) {
+    const Nearest n = g.nearest(x, y);
+    CAPTURE(x, y);
+    CHECK(n.distance == Approx(distance));
+    CHECK(n.normal[0] == Approx(nx).margin(1e-12));
+    CHECK(n.normal[1] == Approx(ny).margin(1e-12));
+  };
+  check(5.0, 2.0, 2.0, 0.0, 1.0);
+  check(9.0, 3.0, 1.0, -1.0, 0.0);    // before the face of the step
+  check(11.0, 2.0, -1.0, -1.0, 0.0);  // behind it
+  check(15.0, 4.0, -1.0, 0.0, 1.0);
+  check(-50.0, -1.0, -1.0, 0.0, 1.0);  // level beyond the ends
+  check(60.0, 7.0, 2.0, 0.0, 1.0);
+  const Ground slope{{0.0, 10.0}, {0.0, 10.0}, 0.5};
+  const Nearest n = slope.nearest(5.0, 7.0);
+  CHECK(n.distance == Approx(std::sqrt(2.0)));
+  CHECK(n.normal[0] == Approx(-std::sqrt(0.5)));
 }
 
-TEST_CASE("Boundary nodes are those at or below the ground and behind the walls", "[mpm]") {
-  ParticleSet p;
-  p.materials = {elastic(1e6, 0.3)};
-  add_lattice(p, {0.0, 0.0, 6.0, 3.0}, 0.25, 1000.0);
-  FlowConfig config = free_space(0.5);
-  config.ground.surface = {{0.0, 0.0}, {6.0, 1.5}};
-  config.left_roller = 0.0;
-  for (auto& x : p.position) x[1] += 1.5;
-  const Run run(p, config);
-  const Grid<2>& g = run.s.grid;
-  REQUIRE(g.boundary_first.size() == g.blocks.size() + 1);
-  int walls = 0, grounds = 0;
-  for (std::size_t b = 0; b < g.blocks.size(); ++b) {
-    std::vector<int> kinds(kBlockNodes<2>, 0);
-    for (std::int32_t k = g.boundary_first[b]; k < g.boundary_first[b + 1]; ++k)
-      kinds[g.boundary[k].local] |= g.boundary[k].kind == 1 ? 1 : 2;
-    for (int n = 0; n < kBlockNodes<2>; ++n) {
-      const double x = 0.5 * (g.blocks[b][0] * 8 + n % 8), y = 0.5 * (g.blocks[b][1] * 8 + n / 8);
-      const double level = std::min(1.5, std::max(0.0, 0.25 * x));
-      const int expected = (x <= 1e-9 ? 1 : 0) + (y <= level + 1e-9 ? 2 : 0);
-      REQUIRE(kinds[n] == expected);
-      walls += (expected & 1) != 0;
-      grounds += (expected & 2) != 0;
+namespace {
+
+/// A block of elastic soil under its weight, lattice and ground turned by `degrees`.
+struct Slope {
+  double angle;
+  ParticleSet points;
+  FlowConfig config;
+  Slope(double degrees, double friction) : angle(degrees * kPi / 180.0) {
+    points.materials = {elastic(5e6, 0.3)};
+    add_lattice(points, {0.0, 0.0, 2.0, 1.0}, 0.125, 1800.0);
+    const double c = std::cos(angle), s = std::sin(angle);
+    for (std::size_t q = 0; q < points.size(); ++q) {
+      auto& x = points.position[q];
+      const double weight = 1800.0 * 9.81 * c * (1.0 - x[1]);  // carried by the normal stress
+      points.stress[q] = {-weight * s * s, -weight * c * c, 0.0, weight * s * c, 0.0, 0.0};
+      x = {x[0] * c - x[1] * s, x[0] * s + x[1] * c, 0.0};
     }
+    config = free_space(0.25);
+    config.gravity = 9.81;
+    config.ground.friction = friction;
+    config.ground.surface = {{-30.0 * c, -30.0 * s}, {30.0 * c, 30.0 * s}};
   }
-  CHECK(walls > 10);
-  CHECK(grounds > 10);
+  /// How far the middle of the block goes down the slope in `time`.
+  [[nodiscard]] double slid(double time) const {
+    Run run(points, config);
+    const auto middle = [&] {
+      double sum = 0.0;
+      for (std::size_t q = 0; q < run.s.points.size(); ++q)
+        sum -= run.s.points.x[0][q] * std::cos(angle) + run.s.points.x[1][q] * std::sin(angle);
+      return sum / double(run.s.points.size());
+    };
+    const double start = middle();
+    run.run_to(time);
+    return (middle() - start) * (time * time) / (run.s.time * run.s.time);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("A block slides down a slope as Coulomb says, or sticks", "[mpm]") {
+  const double degrees = GENERATE(15.0, 30.0);
+  const double along = 9.81 * std::sin(degrees * kPi / 180.0);
+  const double across = 9.81 * std::cos(degrees * kPi / 180.0);
+  for (const double friction : {0.0, 0.1}) {
+    const double exact = 0.125 * (along - friction * across);
+    CAPTURE(degrees, friction);
+    CHECK(Slope(degrees, friction).slid(0.5) == Approx(exact).epsilon(0.02));
+  }
+  CHECK(Slope(degrees, 1.5).slid(0.5) < 0.01);
+}
+
+TEST_CASE("Where the ground lies between the nodes hardly matters", "[mpm]") {
+  const double offset = GENERATE(0.0, 0.3, 0.5, 0.8);
+  Slope slope(30.0, 0.2);
+  slope.config.grid_origin = {0.0, offset * slope.config.cell};
+  const double exact = 0.125 * 9.81 * (0.5 - 0.2 * std::sqrt(0.75));
+  CAPTURE(offset);
+  CHECK(slope.slid(0.5) == Approx(exact).epsilon(0.02));
+}
+
+TEST_CASE("The ground lets go of what leaves it, a roller does not", "[mpm]") {
+  ParticleSet p;
+  p.materials = {elastic(1e6, 0.0)};
+  add_lattice(p, {0.0, 0.0, 1.0, 1.0}, 0.25, 1000.0);
+  FlowConfig config = free_space(0.5);
+  config.ground.surface = {{0.0, 0.0}};
+  for (auto& v : p.velocity) v = {0.0, 0.5, 0.0};
+  Run up(p, config);
+  up.run_to(1.0);
+  for (std::size_t q = 0; q < up.s.points.size(); ++q) REQUIRE(up.s.points.v[1][q] == Approx(0.5));
+
+  config.ground.surface = {{0.0, -1e6}};
+  config.left_roller = 0.0;
+  for (auto& v : p.velocity) v = {0.02, 0.0, 0.0};
+  Run held(p, config);
+  held.run_to(5.0);
+  const auto& x = held.s.points.x[0];
+  CHECK(*std::min_element(x.begin(), x.end()) < 0.2);  // free, it would be at 0.225
 }

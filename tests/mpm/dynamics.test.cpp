@@ -48,9 +48,7 @@ double period_ratio(double cell) {
 }  // namespace
 
 TEST_CASE("A column in equilibrium stays at rest", "[mpm]") {
-  // The spline of the first free node has weight 1/8 at the ground, whose traction that node does
-  // not feel: the column settles by a trace, at g H / (8 c). docs/theory/mpm.md, Boundaries
-  const double height = 5.0, density = 1800.0, g = 9.81, young = 2e9;
+  const double height = 5.0, density = 1800.0, g = 9.81, young = 20e6;
   const double nu = GENERATE(0.3, 0.49);
   ParticleSet p;
   p.materials = {elastic(young, nu)};
@@ -64,17 +62,15 @@ TEST_CASE("A column in equilibrium stays at rest", "[mpm]") {
     set_at_rest(p, height, weight);
     Run run(p, config);
     double largest = 0.0;
-    while (run.s.time < 0.02) {  // several times through the column for the slower of the two
+    while (run.s.time < 0.5) {  // several times through the column for the slower of the two
       run.step();
       largest = std::max(largest, fastest(run.s));
     }
     return largest;
   };
-  const double c = std::sqrt(young / density);
-  const double still = largest_speed(density * g);
-  CHECK(still < 1e-3 * std::sqrt(g * height));
-  CHECK(still < 0.13 * g * height / c);
-  CHECK(largest_speed(0.0) > 4.0 * still);  // control: without stress it falls into itself
+  // Holding nodes at and below the ground instead gives 6e-3 (docs/theory/contact.md).
+  CHECK(largest_speed(density * g) < 1e-3 * std::sqrt(g * height));
+  CHECK(largest_speed(0.0) > 0.01 * std::sqrt(g * height));  // control: it falls into itself
 }
 
 TEST_CASE("A free elastic bar swings with its own period", "[mpm]") {

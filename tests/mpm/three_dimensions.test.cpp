@@ -161,13 +161,15 @@ TEST_CASE("Without Poisson's ratio a 3D body moves as its plane section does", "
   FlowConfig config = free_space(0.5);
   config.basis = any_basis();
   config.gravity = 9.81;
-  config.ground.surface = {{0.0, 0.0}};
   ParticleSet flat, deep;
   flat.materials = deep.materials = {elastic(1e5, 0.0)};
   add_lattice(flat, {0.1, 0.1, 1.6, 0.1 + height}, spacing, 1500.0);
   add_block(deep, {{0.1, 0.0, 0.1}, {1.6, 0.5, 0.1 + height}}, spacing, 1500.0);
-  for (auto& v : flat.velocity) v = {1.0, -2.0, 0.0};
-  for (auto& v : deep.velocity) v = {1.0, 0.0, -2.0};
+  // Squeezed and sheared in flight: contact is solved to a tolerance, the same only to 1e-3.
+  for (std::size_t q = 0; q < flat.size(); ++q)
+    flat.velocity[q] = {1.0 + 0.5 * flat.position[q][1], -2.0 - 2.0 * flat.position[q][1], 0.0};
+  for (std::size_t q = 0; q < deep.size(); ++q)
+    deep.velocity[q] = {1.0 + 0.5 * deep.position[q][2], 0.0, -2.0 - 2.0 * deep.position[q][2]};
   config.velocity_limit = 0.01;  // the same step in both
   config.strain_limit = 0.2;
   Run plane(flat, config);
@@ -191,7 +193,7 @@ TEST_CASE("Without Poisson's ratio a 3D body moves as its plane section does", "
     REQUIRE(a.sigma[2][q] == Approx(b.sigma[1][twin]).margin(1e-6 * 1e5));
     moved = std::max(moved, std::abs(a.sigma[2][q]));
   }
-  CHECK(moved > 500.0);  // it did hit the ground
+  CHECK(moved > 500.0);
 }
 
 TEST_CASE("A 3D block falls and closes its balances", "[mpm]") {

@@ -1,0 +1,57 @@
+#pragma once
+#include "mpm/boundary.hpp"
+#include "mpm/grid.hpp"
+#include "mpm/momentum.hpp"
+
+#include <cstdint>
+#include <vector>
+
+/// Contact with the ground and walls: impulses at points of their surfaces, spread over the nodes
+/// by the shape functions, so that they act on the grid like tractions. docs/theory/contact.md
+namespace flowslide::mpm {
+
+/// A point of a wall. It acts on the contact nodes [first, last) of Contact::node and ::weight.
+template <int Dim>
+struct WallPoint {
+  std::array<double, Dim> normal{};  ///< unit, into the soil
+  double friction = 0.0;             ///< Coulomb coefficient [-]
+  bool holds = false;                ///< holds both ways, without friction (roller)
+  std::int32_t first = 0, last = 0;
+  std::int32_t touching = 0;  ///< entries [first, touching) lie near enough to count as touched
+};
+
+template <int Dim>
+struct Contact {
+  using Vector = std::array<double, Dim>;
+  std::vector<WallPoint<Dim>> walls;
+  std::vector<std::int32_t> node;   ///< per entry, into `nodes`
+  std::vector<double> weight;       ///< per entry: the node's shape function at the wall point
+  std::vector<std::int32_t> nodes;  ///< contact nodes as indices into Grid::nodes, ascending
+  // Buffers of a step.
+  std::vector<Vector> velocity;      ///< per contact node [m/s]
+  std::vector<double> inverse_mass;  ///< per contact node [1/kg]
+  std::vector<double> mobility;      ///< per wall point: sum of weight^2 / mass [1/kg]
+  std::vector<Vector> impulse;  ///< per wall point, of the last step: the next one's guess [N s]
+  std::vector<Vector> fresh;    ///< the same where there is no guess
+  std::vector<std::int32_t> active;  ///< wall points that soil touches
+};
+
+/// Places wall points where the ground and the walls cross the lines of the grid and links them to
+/// the active blocks.
+template <int Dim, class Basis>
+void place_walls(const Grid<Dim>& grid, const Ground& ground, const Rollers& rollers,
+                 Contact<Dim>& contact);
+
+/// Finds velocities of the contact nodes that enter no wall point, from the velocities and masses
+/// in `nodes`; they are left in contact.velocity. Without friction where `slip`.
+template <int Dim>
+void push_out(const std::vector<Node>& nodes, Contact<Dim>& contact, double full_mass,
+              bool slip) noexcept;
+
+/// Corrects the velocities after the momentum step; returns the work of all forces along the
+/// corrections.
+template <int Dim>
+GridWork<Dim> hold_at_walls(Grid<Dim>& grid, Contact<Dim>& contact, const MomentumSettings& s,
+                            double full_mass) noexcept;
+
+}  // namespace flowslide::mpm
