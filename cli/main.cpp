@@ -29,6 +29,8 @@ int run(int argc, char** argv) {
   flowslide::cli::add_check(app, action);
   flowslide::cli::add_inspect(app, action);
   flowslide::cli::add_motion(app, action);
+  flowslide::cli::add_point(app, action);
+  flowslide::cli::add_convert(app, action);
   flowslide::cli::add_report(app, action);
   flowslide::cli::add_verify(app, action);
   flowslide::cli::add_bench(app, action);

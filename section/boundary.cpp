@@ -80,10 +80,15 @@ void add_outer_sets(SectionMesh& section) {
         "the section has no vertical ends, so there are no sets base, right, surface and left");
     return;
   }
-  section.sets.push_back({"base", part(loop, left.second, right.first)});
-  section.sets.push_back({"right", part(loop, right.first, right.second)});
-  section.sets.push_back({"surface", part(loop, right.second, left.first)});
-  section.sets.push_back({"left", part(loop, left.first, left.second)});
+  const auto add = [&section](const std::string& name, std::vector<Edge> edges) {
+    const bool exists = std::any_of(section.sets.begin(), section.sets.end(),
+                                    [&name](const EdgeSet& set) { return set.name == name; });
+    if (!exists) section.sets.push_back({name, std::move(edges)});
+  };
+  add("base", part(loop, left.second, right.first));
+  add("right", part(loop, right.first, right.second));
+  add("surface", part(loop, right.second, left.first));
+  add("left", part(loop, left.first, left.second));
 }
 
 EdgeSet edges_along(const QuadMesh& mesh, const std::string& name, std::span<const Vec2> line,

@@ -174,9 +174,70 @@ TEST_CASE("verification cases and benchmarks are listed and chosen by name", "[c
   CHECK(call(scratch, "verify mpn").code == 2);
   const Outcome run = call(scratch, "verify mpm/v1_mirror --json");
   CHECK(run.code == 0);
-  CHECK_THAT(run.out, Contains("\"name\": \"mpm/v1_mirror/error_40_cells\"") && Contains("core_seconds"));
+  CHECK_THAT(run.out,
+             Contains("\"name\": \"mpm/v1_mirror/error_40_cells\"") && Contains("core_seconds"));
   CHECK(call(scratch, "bench --list").code == 0);
   CHECK(call(scratch, "bench no_such").code == 2);
+}
+
+TEST_CASE("the committed workflows pass the check", "[cli]") {
+  const Scratch scratch;
+  for (const char* name : {"mochikoshi", "mochikoshi-static", "mochikoshi-opensees"}) {
+    CAPTURE(name);
+    const Outcome o =
+        call(scratch, std::string("check " FLOWSLIDE_SOURCE "/workflows/") + name + ".yaml");
+    CHECK(o.code == 0);
+    CHECK(o.err.empty());
+  }
+}
+
+TEST_CASE("a point is driven from its file", "[cli]") {
+  const Scratch scratch;
+  const std::string file = FLOWSLIDE_SOURCE "/docs/guide/cyclic-shear.yaml";
+  const std::string quick = " --set simple_shear.strain_step=2e-5 --set simple_shear.csr=0.2";
+  const Outcome o = call(scratch, "point " + file + quick + " --csv shear.csv");
+  CHECK(o.code == 0);
+  CHECK_THAT(o.out, Contains("cycles to 3 % strain"));
+  CHECK_THAT(read_text_file(scratch / "shear.csv"), Catch::StartsWith("gamma,eps_xx"));
+  const Outcome typo = call(scratch, "point " + file + " --set simple_shear.crs=0.1");
+  CHECK(typo.code == 2);
+  CHECK_THAT(typo.err, Contains("crs") && Contains("csr"));
+  const Outcome both = call(scratch, "point " + file + " --set simple_shear.reversal_strain=0.01");
+  CHECK(both.code == 2);
+  CHECK_THAT(both.err, Contains("cyclic-shear.yaml:") && Contains("2 of csr"));
+  scratch.write("empty.yaml", "material: {}\nstress: {vertical: 1 kPa}\nsimple_shear: {}\n");
+  const Outcome none = call(scratch, "point empty.yaml");
+  CHECK(none.code == 2);
+  CHECK_THAT(none.err, Contains("0 laws"));
+}
+
+TEST_CASE("files are converted by kind and ending", "[cli]") {
+  const Scratch scratch;
+  write_model(scratch);
+  REQUIRE(run(scratch, shake()).code == 0);
+  std::filesystem::create_directory(scratch / "tables");
+  std::filesystem::copy(scratch / "nodes.txt", scratch / "tables/nodeinfo.dat");
+  std::filesystem::copy(scratch / "elements.txt", scratch / "tables/elementinfo.dat");
+  CHECK(call(scratch, "convert tables mesh.h5").code == 0);
+  CHECK(call(scratch, "convert mesh.h5 mesh.vtu").code == 0);
+  CHECK(call(scratch, "convert mesh.h5 again").code == 0);
+  CHECK(read_text_file(scratch / "again/nodeinfo.dat") == "1 0 0\n2 1 0\n3 1 1\n4 0 1\n");
+  const Outcome history = call(scratch, "convert out/stages/shake/*/history.h5 recorders/");
+  CHECK(history.code == 0);
+  CHECK(read_text_file(scratch / "recorders/GporePressure.out") == "0.1 5 5 0 0\n");
+  scratch.write("record.txt", "0 0\n0.01 0.1\n0.02 -0.1\n0.03 0\n");
+  CHECK(call(scratch, "convert record.txt motion.h5 --unit g").code == 0);
+  CHECK(call(scratch, "convert motion.h5 motion.csv").code == 0);
+  CHECK_THAT(read_text_file(scratch / "motion.csv"), Contains("0.01,0.98"));
+
+  const Outcome unknown = call(scratch, "convert mesh.h5 mesh.csv");
+  CHECK(unknown.code == 2);
+  CHECK_THAT(unknown.err, Contains("'mesh'") && Contains("mesh.h5 -> NAME.vtu"));
+  CHECK(call(scratch, "convert nothing.h5 x.csv").code == 4);
+  const Outcome unit = call(scratch, "convert record.txt other.csv");
+  CHECK(unit.code == 2);
+  CHECK_THAT(unit.err, Contains("--unit"));
+  CHECK(call(scratch, "convert mesh.h5 motion.h5").code == 2);
 }
 
 TEST_CASE("the committed manual pages are those of the program", "[cli]") {

@@ -11,7 +11,9 @@ inline flowslide::SectionConfig section_of(const std::string& yaml) {
       flowslide::load_yaml(scratch / "section.yaml"), "");
 }
 
+/// The section of workflows/mochikoshi.yaml.
 inline flowslide::SectionConfig mochikoshi() {
-  return flowslide::read_settings<flowslide::SectionConfig>(
-      flowslide::load_yaml(FLOWSLIDE_FIXTURES "/sections/mochikoshi.yaml"), "");
+  const auto document = flowslide::load_yaml(FLOWSLIDE_SOURCE "/workflows/mochikoshi.yaml");
+  const auto mesh = document.find("stages")->find("mesh")->find("with");
+  return flowslide::read_settings<flowslide::SectionConfig>(mesh, "stages.mesh.with");
 }

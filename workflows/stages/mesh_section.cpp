@@ -1,9 +1,7 @@
 #include "section/mesh_section.hpp"
 
-#include "section/quality.hpp"
+#include "workflows/stages/mesh_facts.hpp"
 #include "workflows/stages/stage_list.hpp"
-
-#include <nlohmann/json.hpp>
 
 namespace flowslide {
 namespace {
@@ -27,16 +25,7 @@ struct MeshSectionStage {
                          const Outputs& out) {
     const SectionMesh section = mesh_section(config);
     write_section_mesh(out.mesh.path, section);
-    const MeshQuality q = measure_quality(section.mesh);
-    const nlohmann::ordered_json facts = {{"mesh_nodes", section.mesh.num_nodes()},
-                                          {"mesh_elements", section.mesh.num_elements()},
-                                          {"mesh_min_jacobian_ratio", q.jacobian_ratio.value},
-                                          {"mesh_max_aspect", q.aspect.value},
-                                          {"mesh_max_angle_off_90_deg", q.angle.value},
-                                          {"mesh_shortest_edge_m", q.shortest_edge.value},
-                                          {"mesh_thinnest_element_m", q.thickness.value},
-                                          {"mesh_notes", section.notes}};
-    return {.facts = facts.dump(), .publish = {}};
+    return {.facts = mesh_facts(section), .publish = {}};
   }
 };
 

@@ -3,8 +3,15 @@
 namespace flowslide {
 
 std::vector<StageType> all_stages() {
-  return {mesh_section_stage(), motion_prepare_stage(), import_opensees_stage(), fem_run_stage(),
-          zone_stage(),         map_stage(),            flow_stage(),            report_stage()};
+  return {mesh_section_stage(),
+          import_mesh_stage(),
+          motion_prepare_stage(),
+          import_opensees_stage(),
+          fem_run_stage(),
+          zone_stage(),
+          map_stage(),
+          flow_stage(),
+          report_stage()};
 }
 
 }  // namespace flowslide

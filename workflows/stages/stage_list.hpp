@@ -8,6 +8,7 @@ namespace flowslide {
 
 StageType import_opensees_stage();
 StageType mesh_section_stage();
+StageType import_mesh_stage();
 StageType motion_prepare_stage();
 StageType fem_run_stage();
 StageType zone_stage();

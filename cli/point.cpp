@@ -1,0 +1,51 @@
+#include "cli/command.hpp"
+#include "config/yaml.hpp"
+#include "constitutive/point_config.hpp"
+#include "workflows/engine/record.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace flowslide::cli {
+namespace {
+
+struct Options {
+  std::string file, csv;
+  std::vector<std::string> overrides;
+};
+
+int drive_point(const Options& options) {
+  const YamlNode document = load_yaml(options.file, options.overrides);
+  const auto config = read_settings<PointConfig>(document, "");
+  try {
+    check(config);
+  } catch (const InputError& e) {
+    throw document.error(e.what());
+  }
+  const PointReport report = run_point(config);
+  for (const auto& [name, text] : report.facts) fmt::print("{:<32} {}\n", name, text);
+  if (!options.csv.empty()) {
+    write_atomically(options.csv, point_csv(report));
+    fmt::print("{:<32} {}\n", "written", options.csv);
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_point(CLI::App& app, Command& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("point", "Drive one material point along a path");
+  command->add_option("file", options->file, "material, stress and path, YAML")->required();
+  command->add_option("--csv", options->csv, "write every step to this file");
+  command->add_option("--set", options->overrides, "override a setting, PATH=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
+  command->callback([options, &action] { action = [options] { return drive_point(*options); }; });
+}
+
+}  // namespace flowslide::cli

@@ -1,0 +1,188 @@
+#include "constitutive/point_config.hpp"
+#include "core/check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace flowslide {
+namespace {
+
+PointUnderTest point_of(const PointConfig& config, std::string& law) {
+  const PointStress& s = config.stress;
+  const double lateral = -s.k0 * s.vertical;
+  const Stress<2> sigma{{lateral, -s.vertical, lateral, s.shear}};
+  if (config.material.pm4sand) {
+    law = PM4Sand::name;
+    const PM4Sand::Constants c = PM4Sand::constants(*config.material.pm4sand);
+    return make_point(
+        sigma, PM4Sand::initial_state(c, sigma),
+        [c](const Stress<2>& stress, const PM4Sand::State& state, const StrainIncrement<2>& de) {
+          return PM4Sand::update(c, state, stress, de);
+        },
+        [c](const Stress<2>& stress, const PM4Sand::State& state) {
+          return PM4Sand::elasticity(c, state, stress);
+        });
+  }
+  return std::visit(
+      [&]<class M>(const Material<M>& material) {
+        law = M::name;
+        const auto constants = M::constants(material.params, 1.0);
+        const Elasticity elasticity = M::elasticity(material.params);
+        using State = typename M::State;
+        return make_point(
+            sigma, M::initial_state(material.params),
+            [constants](const Stress<2>& stress, const State& state, const StrainIncrement<2>& de) {
+              return M::template update<2>(constants, state, stress, de);
+            },
+            [elasticity](const Stress<2>&, const State&) { return elasticity; });
+      },
+      make_material(config.material.laws, "material"));
+}
+
+std::string kpa(double stress) { return fmt::format("{:.4g} kPa", 1e-3 * stress); }
+
+void add_shear_facts(const ShearTest& test, const PointShear& shear, bool cyclic,
+                     PointReport& report) {
+  const auto add = [&report](std::string name, std::string text) {
+    report.facts.emplace_back(std::move(name), std::move(text));
+  };
+  const ShearRecord& last = test.records.back();
+  add("ended", test.end == ShearEnd::stop_strain
+                   ? fmt::format("at the shear strain {:.4g}", last.gamma)
+                   : fmt::format("after {} cycles", 0.5 * last.half_cycles));
+  std::size_t peak = 0;
+  double r_u_max = 0.0;
+  for (std::size_t i = 0; i < test.records.size(); ++i) {
+    if (std::abs(test.records[i].tau) > std::abs(test.records[peak].tau)) peak = i;
+    r_u_max = std::max(r_u_max, pore_pressure_ratio(test, i));
+  }
+  add("largest shear stress",
+      fmt::format("{} at the shear strain {:.4g}", kpa(std::abs(test.records[peak].tau)),
+                  test.records[peak].gamma));
+  if (!shear.drained) {
+    add("largest r_u", fmt::format("{:.3f}", r_u_max));
+    for (std::size_t i = 0; i < test.records.size(); ++i)
+      if (pore_pressure_ratio(test, i) >= 0.7) {
+        add("r_u = 0.7 first",
+            cyclic ? fmt::format("after {:.1f} cycles", 0.5 * test.records[i].half_cycles)
+                   : fmt::format("at the shear strain {:.4g}", test.records[i].gamma));
+        break;
+      }
+  } else {
+    add("vertical strain at the end", fmt::format("{:.4g} (compression positive)", -last.eps_yy));
+  }
+  if (!cyclic) {
+    add("shear stress at the end", kpa(last.tau));
+    return;
+  }
+  for (const double strain : {0.01, 0.03, 0.05})
+    if (strain <= shear.stop_strain * (1.0 + 1e-6)) {
+      const auto n = cycles_to_strain(test, strain);
+      add(fmt::format("cycles to {:.0f} % strain", 100.0 * strain),
+          n ? fmt::format("{:.1f}", *n) : std::string("not reached"));
+    }
+  if (test.end == ShearEnd::half_cycles && last.half_cycles >= 2) {
+    const Loop loop = last_loop(test);
+    add("secant modulus of the last loop", kpa(loop.secant_modulus));
+    add("damping ratio of the last loop", fmt::format("{:.4f}", loop.damping));
+  }
+}
+
+void run_shear(PointUnderTest& point, const PointConfig& config, PointReport& report) {
+  const PointShear& shear = *config.simple_shear;
+  SimpleShear test{.drained = shear.drained,
+                   .strain_step = shear.strain_step,
+                   .reversal_stress = shear.reversal_stress,
+                   .reversal_strain = shear.reversal_strain,
+                   .stop_strain = shear.stop_strain,
+                   .max_half_cycles = 2 * shear.max_cycles};
+  if (shear.csr) test.reversal_stress = *shear.csr * config.stress.vertical;
+  const bool cyclic = test.reversal_stress || test.reversal_strain;
+  // Strain-controlled loops go as far as their reversal, not to the strain at which others stop.
+  if (test.reversal_strain) test.stop_strain = 1.01 * *test.reversal_strain;
+  const ShearTest result = run_simple_shear(point, test);
+  for (const ShearRecord& r : result.records)
+    report.rows.push_back({r.gamma, 0.0, r.eps_yy, r.sigma_xx, r.sigma_yy, r.tau, r.half_cycles});
+  add_shear_facts(result, shear, cyclic, report);
+}
+
+/// The prescription of one of `left` remaining steps, so that stresses are reached on a straight
+/// line from where they are.
+Prescribed part(const std::optional<double>& strain, const std::optional<double>& stress,
+                double now, int left, int steps) {
+  if (stress) return Prescribed::stress_value(now + (*stress - now) / left);
+  return Prescribed::strain_increment(strain.value_or(0.0) / steps);
+}
+
+void run_path(PointUnderTest& point, const PointConfig& config, PointReport& report) {
+  PointRow row{0.0, 0.0, 0.0, point.stress[0], point.stress[1], point.stress[3], 0};
+  report.rows.push_back(row);
+  for (std::size_t l = 0; l < config.path.size(); ++l) {
+    const PointLeg& leg = config.path[l];
+    for (int step = 0; step < leg.steps; ++step) {
+      const int left = leg.steps - step;
+      const Stress<2>& s = point.stress;
+      const std::array<Prescribed, 3> wish{
+          part(leg.strain_xx, leg.stress_xx, s[0], left, leg.steps),
+          part(leg.strain_yy, leg.stress_yy, s[1], left, leg.steps),
+          part(leg.gamma_xy, leg.tau_xy, s[3], left, leg.steps)};
+      try {
+        const StrainIncrement<2> de = mixed_step(point, wish, 1e-5 * config.stress.vertical);
+        row.eps_xx += de[0];
+        row.eps_yy += de[1];
+        row.gamma += de[3];
+      } catch (const NumericsError& e) {
+        throw NumericsError(
+            fmt::format("leg {} of the path, step {}: {}", l + 1, step + 1, e.what()));
+      }
+      row.sigma_xx = point.stress[0];
+      row.sigma_yy = point.stress[1];
+      row.tau = point.stress[3];
+      row.half_cycles = static_cast<int>(l);
+      if (!std::isfinite(row.sigma_xx + row.sigma_yy + row.tau))
+        throw NumericsError(
+            fmt::format("leg {} of the path, step {}: the stress is not finite. "
+                        "Take smaller steps",
+                        l + 1, step + 1));
+      report.rows.push_back(row);
+    }
+    report.facts.emplace_back(
+        fmt::format("after leg {}", l + 1),
+        fmt::format("sigma'_xx {}, sigma'_yy {}, tau {}, strains {:.4g}, {:.4g}, gamma {:.4g}",
+                    kpa(row.sigma_xx), kpa(row.sigma_yy), kpa(row.tau), row.eps_xx, row.eps_yy,
+                    row.gamma));
+  }
+}
+
+}  // namespace
+
+PointReport run_point(const PointConfig& config) {
+  check(config);
+  PointReport report;
+  PointUnderTest point = point_of(config, report.law);
+  report.facts.emplace_back("law", report.law);
+  report.facts.emplace_back(
+      "consolidated to",
+      fmt::format("{} vertical, {} horizontal, {} shear", kpa(config.stress.vertical),
+                  kpa(config.stress.k0 * config.stress.vertical), kpa(config.stress.shear)));
+  if (config.simple_shear)
+    run_shear(point, config, report);
+  else
+    run_path(point, config, report);
+  report.facts.emplace_back("steps", fmt::format("{}", report.rows.size() - 1));
+  return report;
+}
+
+std::string point_csv(const PointReport& report) {
+  std::string text = "gamma,eps_xx,eps_yy,sigma_xx_pa,sigma_yy_pa,tau_pa,r_u,half_cycles\n";
+  const double start = report.rows.front().sigma_yy;
+  for (const PointRow& r : report.rows)
+    text += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.6f},{}\n", r.gamma, r.eps_xx,
+                        r.eps_yy, r.sigma_xx, r.sigma_yy, r.tau, 1.0 - r.sigma_yy / start,
+                        r.half_cycles);
+  return text;
+}
+
+}  // namespace flowslide

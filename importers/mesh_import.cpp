@@ -1,0 +1,77 @@
+#include "importers/mesh_import.hpp"
+
+#include "core/check.hpp"
+#include "core/units.hpp"
+#include "importers/gmsh.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+namespace flowslide {
+
+template <>
+struct Schema<NamedTag> {
+  static constexpr std::string_view doc = "A material of the file.";
+  static void describe(FieldVisitor& v, NamedTag& c) {
+    v.integer("tag", c.tag, {}, "its number in the file");
+  }
+};
+
+void Schema<MeshImportConfig>::describe(FieldVisitor& v, MeshImportConfig& c) {
+  v.file("gmsh", c.gmsh, "mesh of gmsh, .msh 2.2 or 4.1, text");
+  v.group("tables", c.tables, "nodes and elements as text tables");
+  v.text("length", c.length, "unit of the coordinates: m, mm, cm, km");
+  v.table("materials", c.materials, "names of materials by their number in the file");
+}
+
+namespace {
+
+SectionMesh from_tables(const MeshTextConfig& config, double length) {
+  MeshText text = read_mesh_text(config, length);
+  SectionMesh section;
+  section.mesh = std::move(text.mesh);
+  section.notes = std::move(text.notes);
+  const std::set<std::int32_t> tags(section.mesh.element_material.begin(),
+                                    section.mesh.element_material.end());
+  for (const std::int32_t tag : tags)
+    section.materials.push_back({fmt::format("material {}", tag), tag});
+  return section;
+}
+
+void rename(SectionMesh& section, const std::map<std::string, NamedTag>& names) {
+  for (const auto& [name, material] : names) {
+    const auto found = std::find_if(section.materials.begin(), section.materials.end(),
+                                    [&](const MaterialName& m) { return m.tag == material.tag; });
+    if (found == section.materials.end()) {
+      std::string tags;
+      for (const MaterialName& m : section.materials) tags += fmt::format(" {}", m.tag);
+      throw InputError(fmt::format(
+          "materials: '{}' has the tag {}, which no element of the mesh has (tags:{}). Correct the "
+          "tag or leave the material out",
+          name, material.tag, tags));
+    }
+    found->name = name;
+  }
+}
+
+}  // namespace
+
+void check(const MeshImportConfig& config) {
+  validate(config.gmsh.has_value() != config.tables.has_value(),
+           "{} of `gmsh` and `tables` (exactly one is the mesh)", config.gmsh ? "both" : "neither");
+  (void)unit_factor(config.length, Dim::length);
+}
+
+SectionMesh import_mesh(const MeshImportConfig& config) {
+  check(config);
+  const double length = unit_factor(config.length, Dim::length);
+  SectionMesh section =
+      config.gmsh ? read_gmsh(config.gmsh->path, length) : from_tables(*config.tables, length);
+  rename(section, config.materials);
+  check(section);
+  return section;
+}
+
+}  // namespace flowslide

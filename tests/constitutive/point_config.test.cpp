@@ -1,0 +1,90 @@
+#include "constitutive/point_config.hpp"
+
+#include "core/check.hpp"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+using namespace flowslide;
+using Catch::Matchers::Contains;
+
+namespace {
+
+PointConfig elastic() {
+  PointConfig c;
+  c.material.laws.linear_elastic = {.youngs_modulus = 26e6, .poisson_ratio = 0.3};
+  c.stress.vertical = 100e3;
+  return c;
+}
+
+std::string fact(const PointReport& report, const std::string& name) {
+  for (const auto& [key, text] : report.facts)
+    if (key == name) return text;
+  return "no such fact";
+}
+
+}  // namespace
+
+TEST_CASE("a path of strains and stresses is followed", "[point]") {
+  PointConfig c = elastic();
+  // Vertical stress of -150 kPa without lateral strain, then 1e-4 of shear.
+  c.path = {{.stress_yy = -150e3, .steps = 10}, {.gamma_xy = 1e-4, .steps = 5}};
+  const PointReport r = run_point(c);
+  REQUIRE(r.rows.size() == 16);
+  const double oedometer = 26e6 * 0.7 / (1.3 * 0.4);
+  CHECK(r.rows[10].eps_yy == Approx(-50e3 / oedometer));
+  CHECK(r.rows[10].sigma_xx == Approx(-50e3 - 50e3 * 0.3 / 0.7));
+  CHECK(r.rows[15].tau == Approx(1e-4 * 10e6));
+  CHECK(r.rows[5].sigma_yy == Approx(-125e3));
+}
+
+TEST_CASE("PM4Sand liquefies in cyclic simple shear from settings", "[point]") {
+  PointConfig c;
+  c.material.pm4sand = PM4Sand::Params{};
+  c.material.pm4sand->Dr = 0.35;
+  c.material.pm4sand->G0 = 476.0;
+  c.material.pm4sand->hpo = 2.70;
+  c.material.pm4sand->Q = 11.998;
+  c.material.pm4sand->R = 3.75;
+  c.stress.vertical = 101.3e3;
+  c.simple_shear.emplace();
+  c.simple_shear->csr = 0.09;
+  c.simple_shear->strain_step = 2e-5;
+  const PointReport r = run_point(c);
+  // OpenSees: r_u = 0.7 at 14.2 cycles.
+  const std::string cycles = fact(r, "r_u = 0.7 first");
+  CHECK(std::abs(std::stod(cycles.substr(6)) - 14.2) < 1.0);
+  CHECK_THAT(fact(r, "ended"), Contains("shear strain"));
+  CHECK_THAT(point_csv(r), Contains("gamma,eps_xx"));
+}
+
+TEST_CASE("settings of a point that cannot be run are refused", "[point]") {
+  PointConfig c = elastic();
+  CHECK_THROWS_WITH(check(c), Contains("neither simple_shear nor path"));
+  c.simple_shear.emplace();
+  c.path.emplace_back();
+  CHECK_THROWS_WITH(check(c), Contains("both simple_shear and path"));
+  c.path.clear();
+  c.simple_shear->csr = 0.1;
+  c.simple_shear->reversal_strain = 0.01;
+  CHECK_THROWS_WITH(check(c), Contains("2 of csr"));
+  c.simple_shear->csr.reset();
+  c.simple_shear->strain_step = 1e-8;
+  CHECK_THROWS_WITH(check(c), Contains("steps"));
+  c = elastic();
+  c.path = {{.strain_xx = 1e-3, .stress_xx = -1e3}};
+  CHECK_THROWS_WITH(check(c), Contains("leg 1") && Contains("xx"));
+  c.material.laws.linear_elastic.reset();
+  CHECK_THROWS_WITH(check(c), Contains("0 laws"));
+}
+
+TEST_CASE("a stress beyond the strength names its leg", "[point]") {
+  PointConfig c;
+  c.material.laws.residual_strength = {
+      .youngs_modulus = 10e6, .poisson_ratio = 0.45, .strength = 5e3, .soft_strength = 5e3};
+  c.stress.vertical = 50e3;
+  c.stress.k0 = 1.0;
+  c.path = {{.gamma_xy = 1e-5, .steps = 2}, {.tau_xy = 6e3, .steps = 10}};
+  CHECK_THROWS_WITH(run_point(c), Contains("leg 2 of the path"));
+}

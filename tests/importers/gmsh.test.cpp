@@ -1,0 +1,163 @@
+#include "importers/gmsh.hpp"
+
+#include "core/check.hpp"
+#include "importers/mesh_import.hpp"
+#include "tests/model/scratch.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace flowslide;
+using Catch::Matchers::Contains;
+
+namespace {
+
+// Two squares side by side, the right one clockwise; a base of two lines and an inner line.
+const std::string kFormat2 = R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+3
+1 5 "base"
+2 168 "tailings"
+2 170 "deep clay"
+$EndPhysicalNames
+$Nodes
+7
+1 0 0 0
+2 1 0 0
+3 2 0 0
+4 0 1 0
+5 1 1 0
+6 2 1 0
+9 9 9 0
+$EndNodes
+$Elements
+6
+1 15 2 0 1 9
+2 1 2 5 1 1 2
+3 1 2 5 1 3 2
+4 1 2 6 2 2 5
+10 3 2 168 1 1 2 5 4
+11 3 2 170 2 2 5 6 3
+$EndElements
+)";
+
+// The same in format 4.1.
+const std::string kFormat4 = R"($MeshFormat
+4.1 0 8
+$EndMeshFormat
+$PhysicalNames
+3
+1 5 "base"
+2 168 "tailings"
+2 170 "deep clay"
+$EndPhysicalNames
+$Entities
+1 2 2 0
+9 9 9 0 0
+1 0 0 0 2 0 0 1 5 2 1 -3
+2 1 0 0 1 1 0 1 6 2 2 -5
+1 0 0 0 1 1 0 1 168 4 1 2 3 4
+2 1 0 0 2 1 0 1 170 4 1 2 3 4
+$EndEntities
+$Nodes
+2 7 1 9
+0 9 0 1
+9
+9 9 0
+2 1 0 6
+1
+2
+3
+4
+5
+6
+0 0 0
+1 0 0
+2 0 0
+0 1 0
+1 1 0
+2 1 0
+$EndNodes
+$Elements
+4 5 2 11
+1 1 1 2
+2 1 2
+3 3 2
+1 2 1 1
+4 2 5
+2 1 3 1
+10 1 2 5 4
+2 2 3 1
+11 2 5 6 3
+$EndElements
+)";
+
+SectionMesh read(const std::string& text, double length = 1.0) {
+  const Scratch scratch;
+  put_bytes(scratch / "dam.msh", text);
+  return read_gmsh(scratch / "dam.msh", length);
+}
+
+std::string error_of(std::string text, const std::string& old, const std::string& replacement) {
+  const auto at = text.find(old);
+  REQUIRE(at != std::string::npos);
+  try {
+    read(text.replace(at, old.size(), replacement));
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "no error";
+}
+
+}  // namespace
+
+TEST_CASE("gmsh meshes of both formats are the same section") {
+  for (const std::string& text : {kFormat2, kFormat4}) {
+    const SectionMesh s = read(text, 0.5);
+    CHECK(s.mesh.node_tags == std::vector<std::int64_t>{1, 2, 3, 4, 5, 6});
+    CHECK(s.mesh.nodes[5] == Vec2{1.0, 0.5});
+    CHECK(s.mesh.element_tags == std::vector<std::int64_t>{10, 11});
+    CHECK(s.mesh.elements[0] == std::array<std::int32_t, 4>{0, 1, 4, 3});
+    CHECK(s.mesh.elements[1] == std::array<std::int32_t, 4>{1, 2, 5, 4});
+    CHECK(material_tag(s, "deep clay") == 170);
+    // Both lines of the base with the soil on the left, though the file turns one.
+    CHECK(find_set(s, "base").edges == std::vector<std::array<std::int32_t, 2>>{{0, 1}, {1, 2}});
+    CHECK(find_set(s, "curve 6").edges.size() == 1);
+    REQUIRE(s.notes.size() == 1);
+    CHECK_THAT(s.notes[0], Contains("1 clockwise"));
+  }
+}
+
+TEST_CASE("gmsh files that are no section are refused with their place") {
+  CHECK_THAT(error_of(kFormat2, "2.2 0 8", "2.2 1 8"), Contains("dam.msh:2") && Contains("binary"));
+  CHECK_THAT(error_of(kFormat2, "2.2 0", "4.0 0"), Contains("format 4"));
+  CHECK_THAT(error_of(kFormat2, "10 3 2 168 1 1 2 5 4", "10 2 2 168 1 1 2 5"),
+             Contains("dam.msh:26") && Contains("triangle") && Contains("Recombine"));
+  CHECK_THAT(error_of(kFormat2, "10 3 2 168 1 1 2 5 4", "10 10 2 168 1 1 2 5 4 9 9 9 9 9"),
+             Contains("type 10"));
+  CHECK_THAT(error_of(kFormat2, "10 3 2 168 1 1 2 5 4", "10 3 2 0 1 1 2 5 4"),
+             Contains("no physical surface"));
+  CHECK_THAT(error_of(kFormat2, "1 1 2 5 4", "1 1 2 5 8"), Contains("names node 8"));
+  CHECK_THAT(error_of(kFormat2, "6 2 1 0", "6 2 1 0.5"), Contains("z = 0.5"));
+  CHECK_THAT(error_of(kFormat2, "6 2 1 0", "6 2 x 0"), Contains("dam.msh:17"));
+  CHECK_THAT(error_of(kFormat2, "$Elements\n6", "$Elements\n7"), Contains("not an element"));
+  CHECK_THAT(error_of(kFormat2, "$Elements\n6", "$Elements\n5"), Contains("more lines"));
+  CHECK_THAT(error_of(kFormat2, "$Elements\n6", "$Elements\n1e99"), Contains("whole number"));
+  CHECK_THAT(error_of(kFormat4, "$EndElements\n", ""), Contains("ends inside $Elements"));
+  CHECK_THAT(error_of(kFormat2, "$MeshFormat\n", "solid dam\n"), Contains("is this a .msh"));
+}
+
+TEST_CASE("materials of imported meshes can be named") {
+  const Scratch scratch;
+  put_bytes(scratch / "dam.msh", kFormat2);
+  MeshImportConfig config;
+  CHECK_THROWS_WITH(import_mesh(config), Contains("neither"));
+  config.gmsh = InputFile{scratch / "dam.msh"};
+  config.materials["foundation"].tag = 170;
+  CHECK(material_tag(import_mesh(config), "foundation") == 170);
+  config.materials["clay"].tag = 3;
+  CHECK_THROWS_WITH(import_mesh(config), Contains("'clay' has the tag 3") && Contains("168 170"));
+  config.length = "furlong";
+  CHECK_THROWS_AS(import_mesh(config), InputError);
+}
