@@ -105,8 +105,9 @@ struct MohrCoulomb {
         const T mean = (d1 + d2 + d3) * (1.0 / 3.0);
         const T e1 = d1 - mean, e2 = d2 - mean, e3 = d3 - mean;
         deviatoric = sqrt(2.0 / 3.0 * (e1 * e1 + e2 * e2 + e3 * e3)) * (0.5 / c.elastic.shear);
-        // Only what opens at the tension corner closes again; dilation of shear does not.
-        opened = select(r.s3 >= y.tension, max(T(0.0), mean) * (1.0 / c.elastic.bulk), T(0.0));
+        // Only what opens in tension closes again; dilation of shear does not.
+        const auto in_tension = r.s1 >= y.tension - 1e-9 * (y.tension + y.sigma_c);
+        opened = select(in_tension, max(T(0.0), mean) * (1.0 / c.elastic.bulk), T(0.0));
         return Sorted3<T>{r.s1, r.s2, r.s3};
       });
     StressUpdate<StateOf<T>, Dim, T> r;
