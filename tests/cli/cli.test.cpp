@@ -224,7 +224,7 @@ TEST_CASE("files are converted by kind and ending", "[cli]") {
   CHECK(read_text_file(scratch / "again/nodeinfo.dat") == "1 0 0\n2 1 0\n3 1 1\n4 0 1\n");
   const Outcome history = call(scratch, "convert out/stages/shake/*/history.h5 recorders/");
   CHECK(history.code == 0);
-  CHECK(read_text_file(scratch / "recorders/GporePressure.out") == "0.1 5 5 0 0\n");
+  CHECK(read_text_file(scratch / "recorders/GporePressure.out") == "0 5 5 0 0\n");
   scratch.write("record.txt", "0 0\n0.01 0.1\n0.02 -0.1\n0.03 0\n");
   CHECK(call(scratch, "convert record.txt motion.h5 --unit g").code == 0);
   CHECK(call(scratch, "convert motion.h5 motion.csv").code == 0);
@@ -236,7 +236,7 @@ TEST_CASE("files are converted by kind and ending", "[cli]") {
   CHECK(call(scratch, "convert nothing.h5 x.csv").code == 4);
   const Outcome unit = call(scratch, "convert record.txt other.csv");
   CHECK(unit.code == 2);
-  CHECK_THAT(unit.err, Contains("--unit"));
+  CHECK_THAT(unit.err, Contains("record.txt: the unit of acceleration"));
   CHECK(call(scratch, "convert mesh.h5 motion.h5").code == 2);
 }
 
