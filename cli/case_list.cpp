@@ -1,5 +1,6 @@
 #include "cli/case_list.hpp"
 
+#include "mpm/bench/cases.hpp"
 #include "mpm/verify/cases.hpp"
 #include "section/verify/cases.hpp"
 
@@ -20,6 +21,6 @@ std::vector<VerificationCase> all_verification_cases() {
   return cases;
 }
 
-std::vector<BenchCase> all_benchmarks() { return {}; }
+std::vector<BenchCase> all_benchmarks() { return mpm_benchmarks(); }
 
 }  // namespace flowslide::cli

@@ -97,6 +97,18 @@ inline Pack floor(Pack a) {
   return r;
 #endif
 }
+/// 1 / sqrt(a) for positive normal numbers, to a few units in the last place.
+inline Pack inverse_sqrt(Pack a) {
+#if defined(__AVX512F__)
+  // 14 bits, then twice Newton: several times cheaper than a root and a division.
+  Pack r(Pack::Vector(_mm512_mask_rsqrt14_pd(_mm512_setzero_pd(), 0xff, __m512d(a.v))));
+  const Pack half = 0.5 * a;
+  r = r * (1.5 - half * r * r);
+  return r * (1.5 - half * r * r);
+#else
+  return 1.0 / sqrt(a);
+#endif
+}
 inline double sqrt(double a) { return std::sqrt(a); }
 inline double floor(double a) { return std::floor(a); }
 

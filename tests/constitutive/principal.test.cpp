@@ -60,3 +60,31 @@ TEMPLATE_TEST_CASE("A map of principal stresses keeps axes and sees them in orde
     CHECK((tensor(square) - shifted * shifted).norm() < 1e-12 * (shifted * shifted).norm());
   }
 }
+
+TEST_CASE("Lanes of a 3D map are the points one by one, equal principal stresses included",
+          "[constitutive]") {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> exponent(-9.0, 3.0);
+  for (int i = 0; i < 2000; ++i) {
+    std::array<Stress<3>, Pack::lanes> lane;
+    Stress<3, Pack> s{};
+    for (int k = 0; k < Pack::lanes; ++k) {
+      lane[k] = random_voigt<Stress<3>>(random, 1e4);
+      const double small = std::pow(10.0, exponent(random));
+      if ((i + k) % 5 == 1) lane[k] = {{2.0, 2.0, 2.0, small, small, 0.0}};
+      if ((i + k) % 5 == 2) lane[k] = {{lane[k][0], lane[k][0], lane[k][2], 0.0, 0.0, small}};
+      if ((i + k) % 5 == 3) lane[k] = {};
+      for (int c = 0; c < 6; ++c) s[c].v[k] = lane[k][c];
+    }
+    const auto cap = [](const auto& t) {
+      using T = std::decay_t<decltype(t.hi)>;
+      return Sorted3<T>{min(t.hi, T(1.0)), min(t.mid, T(1.0)), min(t.lo, T(1.0))};
+    };
+    const Stress<3, Pack> r = map_principal(s, cap);
+    for (int k = 0; k < Pack::lanes; ++k) {
+      const Stress<3> one = map_principal(lane[k], cap);
+      for (int c = 0; c < 6; ++c)
+        REQUIRE(std::abs(r[c][k] - one[c]) < 1e-12 * (1.0 + tensor(lane[k]).norm()));
+    }
+  }
+}

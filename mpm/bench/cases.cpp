@@ -1,0 +1,19 @@
+#include "mpm/bench/cases.hpp"
+
+#include "mpm/bench/speed.hpp"
+
+namespace flowslide {
+
+std::vector<BenchCase> mpm_benchmarks() {
+  return {
+      {"mpm/2d/linear", "whole steps in plane strain, hat functions", mpm::measure_linear<2>},
+      {"mpm/2d/quadratic", "whole steps in plane strain, quadratic splines",
+       mpm::measure_quadratic<2>},
+      {"mpm/3d/linear", "whole steps in three dimensions, hat functions", mpm::measure_linear<3>},
+      {"mpm/3d/quadratic", "whole steps in three dimensions, quadratic splines",
+       mpm::measure_quadratic<3>},
+      {"mpm/curve", "error against processor time of bases and transfers", mpm::work_precision},
+  };
+}
+
+}  // namespace flowslide

@@ -1,0 +1,16 @@
+#pragma once
+#include "core/benchmark.hpp"
+
+namespace flowslide::mpm {
+
+/// Point updates per second and core of whole steps, for every law and size.
+template <int Dim>
+std::vector<Measurement> measure_quadratic();
+template <int Dim>
+std::vector<Measurement> measure_linear();
+
+/// Error against processor time: a moving, swinging bar, five cell sizes for each line of
+/// basis and transfer.
+std::vector<Measurement> work_precision();
+
+}  // namespace flowslide::mpm
