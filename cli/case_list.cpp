@@ -1,5 +1,6 @@
 #include "cli/case_list.hpp"
 
+#include "fem/verify/cases.hpp"
 #include "mpm/bench/cases.hpp"
 #include "mpm/verify/cases.hpp"
 #include "section/verify/cases.hpp"
@@ -16,6 +17,7 @@ void append(std::vector<T>& list, std::vector<T> more) {
 
 std::vector<VerificationCase> all_verification_cases() {
   std::vector<VerificationCase> cases;
+  append(cases, fem_cases());
   append(cases, mpm_cases());
   append(cases, section_cases());
   return cases;

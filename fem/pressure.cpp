@@ -59,7 +59,7 @@ PressureSystem make_pressure_system(const Model& model, const Layout& l) {
     for (int i = 0; i < 4; ++i) {
       unknown[4 * e + i] = s.equation[l.nodes[e][i]];
       s.storage[unknown[4 * e + i]] +=
-          m.porosity / model.fluid.bulk_modulus * l.elements.volume[e] * l.elements.share[i][e];
+          0.25 * m.porosity / model.fluid.bulk_modulus * l.elements.volume[e];
     }
   }
   s.flow = make_gather(unknown, s.num_equations);

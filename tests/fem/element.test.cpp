@@ -1,5 +1,5 @@
 #include "model/shape_quad.hpp"
-#include "tests/fem/scene.hpp"
+#include "fem/verify/scene.hpp"
 
 #include <catch2/catch.hpp>
 

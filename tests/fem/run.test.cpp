@@ -1,5 +1,5 @@
 #include "model/history.hpp"
-#include "tests/fem/scene.hpp"
+#include "fem/verify/scene.hpp"
 #include "tests/support/scratch.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "tests/fem/scene.hpp"
+#include "fem/verify/scene.hpp"
 
 #include <atomic>
 #include <cstdlib>

@@ -1,0 +1,32 @@
+#include "fem/verify/cases.hpp"
+
+#include "fem/verify/list.hpp"
+
+namespace flowslide {
+
+std::vector<VerificationCase> fem_cases() {
+  using namespace fem;
+  return {
+      {"fem/f1_patch", "constant states on distorted elements", true, verify_patch},
+      {"fem/f2_terzaghi", "consolidation in one dimension, against the series", false,
+       verify_terzaghi},
+      {"fem/f2_first_step", "pore pressure at a drained surface just after loading", true,
+       verify_first_step},
+      {"fem/f3_mandel", "consolidation between plates, against the series", false, verify_mandel},
+      {"fem/f5_harmonic", "vibrated saturated column, against the u-p equations", false,
+       verify_harmonic_column},
+      {"fem/f6_site_response", "damped layer on elastic rock, against its transfer function", true,
+       verify_site_response},
+      {"fem/f6_reflection", "what a compliant base gives back of a wave", true, verify_reflection},
+      {"fem/f7_undrained", "pore pressure under a footing on undrained soil", true,
+       verify_undrained},
+      {"fem/f9_steps", "sand column: smaller steps and strain increments", true,
+       verify_pm4sand_step},
+      {"fem/c2_rest", "a slope of sand at rest for 10 s", true, verify_rest},
+      {"fem/c2_bending", "cantilever, against the beam", true, verify_bending},
+      {"fem/c2_hostile", "100 random sections and motions end well or with a cause", false,
+       verify_hostile},
+  };
+}
+
+}  // namespace flowslide
