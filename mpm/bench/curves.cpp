@@ -104,7 +104,7 @@ std::vector<Measurement> work_precision() {
     const std::string_view name =
         visit_basis(basis, []<class B>(B) { return std::string_view(B::name); });
     for (const Line& line : lines)
-      for (const double cell : {1.0, 0.5, 0.25, 0.125, 0.0625})
+      for (const double cell : {1.0, 0.5, 0.25, 0.125})
         all.push_back(point_of_line(basis, name, line, cell));
   }
   return all;

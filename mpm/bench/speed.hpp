@@ -9,7 +9,7 @@ std::vector<Measurement> measure_quadratic();
 template <int Dim>
 std::vector<Measurement> measure_linear();
 
-/// Error against processor time: a moving, swinging bar, five cell sizes for each line of
+/// Error against processor time: a moving, swinging bar, four cell sizes for each line of
 /// basis and transfer.
 std::vector<Measurement> work_precision();
 

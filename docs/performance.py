@@ -1,0 +1,104 @@
+"""Writes the tables of docs/performance.md and docs/images/work-precision.png from measurements.
+
+    flowslide bench mpm --json > docs/performance.json
+    python3 docs/performance.py
+
+Needs Matplotlib. Text outside the marked tables is left alone.
+"""
+import json
+import pathlib
+import re
+import subprocess
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+
+DOCS = pathlib.Path(__file__).resolve().parent
+TARGETS = {"2d/linear": 20, "2d/quadratic": 12, "3d/linear": 12, "3d/quadratic": 6}
+
+
+def speed_table(rows):
+    lines = [
+        "| dimension / basis | law | points | M updates/s/core | target | ns | bytes | triad GB/s "
+        "| % of roofline |",
+        "|---|---|---|---|---|---|---|---|---|",
+    ]
+    for r in rows:
+        _, dim, basis, law, points = r["name"].split("/")
+        lines.append(
+            f"| {dim} {basis} | {law} | {int(points):,} | {r['value']:.1f} "
+            f"| {TARGETS[f'{dim}/{basis}']} | {r['ns_per_update']:.0f} "
+            f"| {r['bytes_per_update']:.0f} | {r['triad_gb_per_s']:.1f} "
+            f"| {r['roofline_percent']:.0f} |"
+        )
+    return "\n".join(lines)
+
+
+def curve_table(lines_of):
+    cells = sorted({p["cell_m"] for line in lines_of.values() for p in line}, reverse=True)
+    head = "| basis / transfer | " + " | ".join(f"{c:g} m" for c in cells) + " |"
+    rows = [head, "|---" * (len(cells) + 1) + "|"]
+    for name, line in lines_of.items():
+        by_cell = {p["cell_m"]: p for p in line}
+        entries = [
+            f"{by_cell[c]['value']:.2g} / {by_cell[c]['core_seconds']:.2g} s" for c in cells
+        ]
+        rows.append(f"| {name} | " + " | ".join(entries) + " |")
+    return "\n".join(rows)
+
+
+def draw(lines_of, path):
+    bases = list(dict.fromkeys(name.split("/")[0] for name in lines_of))
+    figure, axes = plt.subplots(1, len(bases), figsize=(3.2 * len(bases), 3.4), sharey=True)
+    for axis, basis in zip(axes, bases):
+        for name, line in lines_of.items():
+            if name.startswith(basis + "/"):
+                axis.loglog(
+                    [p["core_seconds"] for p in line],
+                    [min(p["value"], 10.0) for p in line],
+                    "o-",
+                    ms=3,
+                    lw=1,
+                    label=name.split("/")[1],
+                )
+        axis.set_title(basis, fontsize=9)
+        axis.set_xlabel("core seconds")
+        axis.grid(True, which="both", lw=0.2)
+    axes[0].set_ylabel("rms error of velocity")
+    axes[-1].legend(fontsize=7)
+    figure.tight_layout()
+    figure.savefig(path, dpi=110, metadata={"Software": None})
+
+
+def replace(text, mark, table):
+    pattern = re.compile(f"(<!-- {mark} -->\n).*?(\n<!-- end {mark} -->)", re.DOTALL)
+    assert pattern.search(text), f"docs/performance.md has no marks for {mark}"
+    return pattern.sub(lambda m: m.group(1) + table + m.group(2), text)
+
+
+def main():
+    measurements = json.loads((DOCS / "performance.json").read_text())
+    speed = [m for m in measurements if not m["name"].startswith("mpm/curve/")]
+    curves = {}
+    for m in measurements:
+        if m["name"].startswith("mpm/curve/"):
+            _, _, basis, transfer, _ = m["name"].split("/")
+            curves.setdefault(f"{basis}/{transfer}", []).append(m)
+    commit = subprocess.run(
+        ["git", "-C", str(DOCS), "describe", "--always"], capture_output=True, text=True
+    ).stdout.strip()
+    page = DOCS / "performance.md"
+    text = page.read_text()
+    if speed:
+        facts = f"Compiler g++ {speed[0]['compiler']}, flags `{speed[0]['flags'].strip()}`, commit {commit}."
+        text = replace(text, "speed", facts + "\n\n" + speed_table(speed))
+    if curves:
+        text = replace(text, "curves", curve_table(curves))
+        draw(curves, DOCS / "images" / "work-precision.png")
+    page.write_text(text)
+
+
+if __name__ == "__main__":
+    main()
