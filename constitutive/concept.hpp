@@ -39,6 +39,18 @@ constexpr Stress<Dim, T> hooke(const Elasticity& e, const Stress<Dim, T>& s,
   return r;
 }
 
+/// The update of law M. Laws whose stress depends on the rate of strain say so with
+/// `rate_dependent` and take the time step [s] as well.
+template <class M, int Dim, class T>
+[[nodiscard]] StressUpdate<typename M::template StateOf<T>, Dim, T> update_law(
+    const typename M::Constants& c, const typename M::template StateOf<T>& state,
+    const Stress<Dim, T>& sigma, const StrainIncrement<Dim, T>& de, double dt) noexcept {
+  if constexpr (requires { M::rate_dependent; })
+    return M::template update<Dim>(c, state, sigma, de, dt);
+  else
+    return M::template update<Dim>(c, state, sigma, de);
+}
+
 /// A law M. `StateOf<T>` is an aggregate of numbers T in the order of `state_names`, so that
 /// solvers can keep it as plain arrays; State is StateOf<double>. `Constants` are numbers derived
 /// once from the parameters: what the update needs, without a transcendental function per point.
@@ -51,11 +63,12 @@ concept ConstitutiveModel = std::is_aggregate_v<typename M::Params> &&
                                     (M::state_names.empty() ? 1 : 0) &&
                             requires(const typename M::Params& p, const typename M::Constants& c,
                                      const typename M::State& s, const Stress<Dim>& sigma,
-                                     const StrainIncrement<Dim>& de, double softening_scale) {
+                                     const StrainIncrement<Dim>& de, double softening_scale,
+                                     double dt) {
   { M::name } -> std::convertible_to<std::string_view>;
   { M::constants(p, softening_scale) } -> std::same_as<typename M::Constants>;
   { M::initial_state(p) } -> std::same_as<typename M::State>;
-  { M::template update<Dim>(c, s, sigma, de) }
+  { update_law<M, Dim, double>(c, s, sigma, de, dt) }
   noexcept->std::same_as<StressUpdate<typename M::State, Dim>>;
   { M::elasticity(p) } -> std::same_as<Elasticity>;
   { M::present_strength(c, s) }

@@ -69,14 +69,16 @@ void for_each_number(Params& p, F f) {
   Schema<Params>::describe(visitor, p);
 }
 
-void check_relations(const MohrCoulomb::Params& p) { check(p); }
+/// Relations between parameters, for laws that have a check().
 template <class Params>
-void check_relations(const Params&) {}
+void check_relations(const Params& p) {
+  if constexpr (requires { check(p); }) check(p);
+}
 
 template <class M>
-bool read_law(std::string_view law, const std::map<std::string, double>& parameters,
+void read_law(std::string_view law, const std::map<std::string, double>& parameters,
               std::optional<AnyMaterial>& result) {
-  if (law != M::name) return false;
+  if (law != M::name) return;
   typename M::Params p;
   std::set<std::string> known;
   for_each_number(p, [&](std::string_view key, std::optional<double>& value, const Range& range,
@@ -92,58 +94,86 @@ bool read_law(std::string_view law, const std::map<std::string, double>& paramet
     validate(known.count(key) == 1, "{} has no parameter '{}'", law, key);
   check_relations(p);
   result = Material<M>{p};
-  return true;
-}
-
-template <class Variant, std::size_t... I>
-std::optional<AnyMaterial> read_any(std::string_view law,
-                                    const std::map<std::string, double>& parameters,
-                                    std::index_sequence<I...>) {
-  std::optional<AnyMaterial> result;
-  const auto try_one = [&]<class M>(std::type_identity<Material<M>>) {
-    return read_law<M>(law, parameters, result);
-  };
-  (try_one(std::type_identity<std::variant_alternative_t<I, Variant>>{}) || ...);
-  return result;
 }
 
 }  // namespace
 
-void check(const MohrCoulomb::Params& p) {
+namespace {
+
+/// What Mohr-Coulomb and its cone have in common.
+template <class Params>
+void check_friction(std::string_view law, const Params& p) {
   const double degrees = 57.29577951308232;
   validate(!p.residual_friction_angle || *p.residual_friction_angle <= p.friction_angle,
-           "mohr_coulomb: residual friction angle {:.1f} deg exceeds the peak {:.1f} deg "
-           "(softening would "
+           "{}: residual friction angle {:.1f} deg exceeds the peak {:.1f} deg (softening would "
            "harden) swap them?",
-           p.residual_friction_angle.value_or(0.0) * degrees, p.friction_angle * degrees);
+           law, p.residual_friction_angle.value_or(0.0) * degrees, p.friction_angle * degrees);
   validate(p.dilation_angle <= p.friction_angle,
-           "mohr_coulomb: dilation angle {:.1f} deg exceeds the friction angle {:.1f} deg "
-           "(shearing would "
+           "{}: dilation angle {:.1f} deg exceeds the friction angle {:.1f} deg (shearing would "
            "create energy) use a smaller one",
-           p.dilation_angle * degrees, p.friction_angle * degrees);
+           law, p.dilation_angle * degrees, p.friction_angle * degrees);
   validate(p.cohesion > 0.0 || p.friction_angle > 0.0,
-           "mohr_coulomb: cohesion and friction angle are both zero (no strength at all) give one "
-           "of them");
+           "{}: cohesion and friction angle are both zero (no strength at all) give one of them",
+           law);
+}
+
+}  // namespace
+
+void check(const MohrCoulomb::Params& p) { check_friction(MohrCoulomb::name, p); }
+void check(const DruckerPrager::Params& p) { check_friction(DruckerPrager::name, p); }
+
+void check(const ModifiedCamClay::Params& p) {
+  validate(p.compression_index > p.swelling_index,
+           "modified_cam_clay: compression_index {} does not exceed swelling_index {} (virgin soil "
+           "is softer than swelling soil) swap them?",
+           p.compression_index, p.swelling_index);
+}
+
+void check(const NorSand::Params& p) {
+  validate(
+      p.csl_slope * p.dilatancy < p.critical_ratio,
+      "norsand: csl_slope x dilatancy is {:.3g}, not below critical_ratio {} (the dilatancy of "
+      "the image state has no value) use a smaller dilatancy",
+      p.csl_slope * p.dilatancy, p.critical_ratio);
+}
+
+void check(const MuI::Params& p) {
+  validate(p.mu_limit >= p.mu_static,
+           "mu_i: mu_limit {} is below mu_static {} (faster flow would be weaker, which has no "
+           "unique answer) swap them?",
+           p.mu_limit, p.mu_static);
 }
 
 void describe_laws(FieldVisitor& v, MaterialSettings& m) {
-  v.group("linear_elastic", m.linear_elastic, Schema<LinearElastic::Params>::doc);
-  v.group("mohr_coulomb", m.mohr_coulomb, Schema<MohrCoulomb::Params>::doc);
-  v.group("residual_strength", m.residual_strength, Schema<ResidualStrength::Params>::doc);
+  AllLaws::each([&]<class M>() { v.group(M::name, m.of<M>(), Schema<typename M::Params>::doc); });
+}
+
+int count_given(const MaterialSettings& m) {
+  int given = 0;
+  AllLaws::each([&]<class M>() { given += int{m.of<M>().has_value()}; });
+  return given;
+}
+
+std::string law_names() {
+  std::string names;
+  AllLaws::each([&]<class M>() {
+    names += names.empty() ? "" : ", ";
+    names += M::name;
+  });
+  return names;
 }
 
 AnyMaterial make_material(const MaterialSettings& m, std::string_view where) {
-  const int given = int(m.linear_elastic.has_value()) + int(m.mohr_coulomb.has_value()) +
-                    int(m.residual_strength.has_value());
-  validate(
-      given == 1,
-      "material '{}' has {} constitutive laws (exactly one is needed) give one of linear_elastic, "
-      "mohr_coulomb, residual_strength",
-      where, given);
-  if (m.linear_elastic) return Material<LinearElastic>{*m.linear_elastic};
-  if (m.residual_strength) return Material<ResidualStrength>{*m.residual_strength};
-  check(*m.mohr_coulomb);
-  return Material<MohrCoulomb>{*m.mohr_coulomb};
+  const int given = count_given(m);
+  AnyMaterial chosen;
+  AllLaws::each([&]<class M>() {
+    if (m.of<M>()) chosen = Material<M>{*m.of<M>()};
+  });
+  validate(given == 1,
+           "material '{}' has {} constitutive laws (exactly one is needed) give one of {}", where,
+           given, law_names());
+  std::visit([](const auto& law) { check_relations(law.params); }, chosen);
+  return chosen;
 }
 
 LawParameters to_parameters(const AnyMaterial& material) {
@@ -161,8 +191,8 @@ LawParameters to_parameters(const AnyMaterial& material) {
 }
 
 AnyMaterial from_parameters(std::string_view law, const std::map<std::string, double>& parameters) {
-  auto result = read_any<AnyMaterial>(law, parameters,
-                                      std::make_index_sequence<std::variant_size_v<AnyMaterial>>{});
+  std::optional<AnyMaterial> result;
+  AllLaws::each([&]<class M>() { read_law<M>(law, parameters, result); });
   validate(result.has_value(), "unknown constitutive law '{}'", law);
   return *result;
 }

@@ -89,7 +89,7 @@ struct MohrCoulomb {
     StrainIncrement<Dim, T> strain = de;
     for (int i = 0; i < 3; ++i) strain[i] -= (volumetric - step.volumetric) * (1.0 / 3.0);
     Stress<Dim, T> trial = hooke(c.elastic, sigma, strain);
-    const T u_old = present_pore_pressure(c, old.pore_pressure, old.gap);
+    const T u_old = present_pore_pressure(c.elastic.bulk, old.pore_pressure, old.gap);
     for (int i = 0; i < 3; ++i) trial[i] += u_old;
 
     // (ii), (iii) return in principal axes with the strength at the start of the step
@@ -114,20 +114,13 @@ struct MohrCoulomb {
     r.state = old;
     r.state.plastic_strain = old.plastic_strain + deviatoric;
     r.state.gap = step.gap + opened;
-    const T u_new = present_pore_pressure(c, old.pore_pressure, r.state.gap);
+    const T u_new = present_pore_pressure(c.elastic.bulk, old.pore_pressure, r.state.gap);
     for (int i = 0; i < 3; ++i) returned[i] -= u_new;
     r.stress = returned;
     return r;
   }
 
  private:
-  /// Water does not push soil apart for ever: where a gap opens, u falls with the opened volume and
-  /// returns when the gap closes. With u held, soil at the apex is a gas of constant pressure.
-  template <class T>
-  static T present_pore_pressure(const Constants& c, T pore_pressure, T gap) noexcept {
-    const T left = max(T(0.0), pore_pressure - c.elastic.bulk * gap);
-    return select(gap > T(0.0), min(pore_pressure, left), pore_pressure);
-  }
   /// True only inside the surface; from invariants alone, s1 <= p + 2 tau/sqrt(3) and
   /// s1 - s3 <= 2 tau with tau = sqrt(J2).
   template <int Dim, class T>

@@ -109,12 +109,9 @@ void check_leg(const PointLeg& leg, std::size_t index) {
 
 void check(const PointConfig& config) {
   const auto& m = config.material;
-  const int laws = int{m.pm4sand.has_value()} + int{m.laws.linear_elastic.has_value()} +
-                   int{m.laws.mohr_coulomb.has_value()} + int{m.laws.residual_strength.has_value()};
-  validate(laws == 1,
-           "material: {} laws (exactly one decides). Give one of pm4sand, linear_elastic, "
-           "mohr_coulomb and residual_strength",
-           laws);
+  const int laws = int{m.pm4sand.has_value()} + count_given(m.laws);
+  validate(laws == 1, "material: {} laws (exactly one decides). Give one of pm4sand, {}", laws,
+           law_names());
   if (m.pm4sand)
     (void)PM4Sand::constants(*m.pm4sand);
   else

@@ -28,13 +28,19 @@ PointUnderTest point_of(const PointConfig& config, std::string& law) {
   return std::visit(
       [&]<class M>(const Material<M>& material) {
         law = M::name;
+        // A point follows strains and stresses, not time.
+        if constexpr (requires { M::rate_dependent; })
+          throw InputError(fmt::format(
+              "material: the stress of {} depends on the rate of strain (a point is driven without "
+              "time). Use a law that does not, such as {}",
+              M::name, MohrCoulomb::name));
         const auto constants = M::constants(material.params, 1.0);
         const Elasticity elasticity = M::elasticity(material.params);
         using State = typename M::State;
         return make_point(
             sigma, M::initial_state(material.params),
             [constants](const Stress<2>& stress, const State& state, const StrainIncrement<2>& de) {
-              return M::template update<2>(constants, state, stress, de);
+              return update_law<M, 2, double>(constants, state, stress, de, 0.0);
             },
             [elasticity](const Stress<2>&, const State&) { return elasticity; });
       },

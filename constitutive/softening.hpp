@@ -38,4 +38,18 @@ template <class T>
   return {select(open, min(left, T(0.0)), volumetric), select(open, max(left, T(0.0)), T(0.0))};
 }
 
+/// Water does not push soil apart for ever: where a gap opens, u falls with the opened volume and
+/// returns when the gap closes. With u held, soil at the apex is a gas of constant pressure.
+template <class T>
+[[nodiscard]] T present_pore_pressure(double bulk, T pore_pressure, T gap) noexcept {
+  const T left = max(T(0.0), pore_pressure - bulk * gap);
+  return select(gap > T(0.0), min(pore_pressure, left), pore_pressure);
+}
+
+/// exp(x) to fourth order, for strains of a step; the library's does not run on eight lanes.
+template <class T>
+[[nodiscard]] T exp_of_small(T x) noexcept {
+  return 1.0 + x * (1.0 + x * (0.5 + x * (1.0 / 6.0 + x * (1.0 / 24.0))));
+}
+
 }  // namespace flowslide

@@ -15,8 +15,7 @@ template <class M>
 struct Typed {
   typename M::Constants constants;
 };
-using TypedMaterial =
-    std::variant<Typed<LinearElastic>, Typed<MohrCoulomb>, Typed<ResidualStrength>>;
+using TypedMaterial = AllLaws::Variant<Typed>;
 
 struct SolverMaterial {
   TypedMaterial law;

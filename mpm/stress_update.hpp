@@ -57,7 +57,7 @@ template <int Dim, class M>
     const T shift = read(s.average.change, k) * (dt / 3.0);
     const StrainIncrement<Dim, T> de = strain_increment<Dim>(l, shift, dt);
     const auto result =
-        M::template update<Dim>(constants, state, rotate_by_spin<Dim>(sigma, l, dt), de);
+        update_law<M, Dim, T>(constants, state, rotate_by_spin<Dim>(sigma, l, dt), de, dt);
 
     const T volume = read(p.volume, q);
     T work_start = 0.0, work_end = 0.0;
@@ -74,7 +74,10 @@ template <int Dim, class M>
     // exp(growth) to third order: volume stays positive for any compression the step limit allows.
     const T new_volume = volume * (1.0 + growth * (1.0 + growth * (0.5 + growth * (1.0 / 6.0))));
     write(p.volume, new_volume);
-    wave2 = max(wave2, modulus * new_volume / read(p.mass, q));
+    T present = modulus;
+    if constexpr (requires { M::template present_modulus<Dim>(constants, result.state, sigma); })
+      present = M::template present_modulus<Dim>(constants, result.state, result.stress);
+    wave2 = max(wave2, present * new_volume / read(p.mass, q));
     T v2 = 0.0, l2 = 0.0;
     unroll<Dim>([&](auto d) {
       const T v = read(p.v[d], q);

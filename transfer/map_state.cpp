@@ -45,7 +45,9 @@ struct LawReturn {
   const MapConfig& config;
   double before = 0.0, after = 0.0;
 
-  Stress<2> operator()(const Material<LinearElastic>&, const ParticleSet& p, std::size_t i) {
+  /// Laws whose stress is what their first step makes of it.
+  template <class M>
+  Stress<2> operator()(const Material<M>&, const ParticleSet& p, std::size_t i) {
     return in_plane(p.stress[i]);
   }
   Stress<2> operator()(const Material<MohrCoulomb>& m, const ParticleSet& p, std::size_t i) {

@@ -18,5 +18,19 @@ std::vector<Check> verify_cut(std::string_view name);
 std::vector<Check> verify_prandtl(std::string_view name);
 std::vector<Check> verify_prandtl_mc(std::string_view name);
 std::vector<Check> verify_slope(std::string_view name);
+std::vector<Check> verify_wave(std::string_view name);
+std::vector<Check> verify_vortex(std::string_view name);
+std::vector<Check> verify_infinite_slope(std::string_view name);
+std::vector<Check> verify_sheet_flow(std::string_view name);
+std::vector<Check> verify_crossing(std::string_view name);
+std::vector<Check> verify_ringing(std::string_view name);
+std::vector<Check> verify_sparse(std::string_view name);
+std::vector<Check> verify_stretch(std::string_view name);
+std::vector<Check> verify_rejoin(std::string_view name);
+std::vector<Check> verify_weak(std::string_view name);
+std::vector<Check> verify_contrast(std::string_view name);
+std::vector<Check> verify_hit(std::string_view name);
+std::vector<Check> verify_corner(std::string_view name);
+std::vector<Check> verify_return_maps(std::string_view name);
 
 }  // namespace flowslide::mpm

@@ -110,16 +110,16 @@ TEST_CASE("A material has exactly one law", "[constitutive]") {
   MaterialSettings s;
   CHECK_THAT(message_of([&] { make_material(s, "tailings"); }),
              Contains("'tailings'") && Contains("0 constitutive laws"));
-  s.linear_elastic = sample_params<LinearElastic>();
+  s.of<LinearElastic>() = sample_params<LinearElastic>();
   CHECK(std::holds_alternative<Material<LinearElastic>>(make_material(s, "tailings")));
-  s.residual_strength = sample_params<ResidualStrength>();
+  s.of<ResidualStrength>() = sample_params<ResidualStrength>();
   CHECK_THAT(message_of([&] { make_material(s, "tailings"); }), Contains("2 constitutive laws"));
-  s.linear_elastic.reset();
+  s.of<LinearElastic>().reset();
   CHECK(std::holds_alternative<Material<ResidualStrength>>(make_material(s, "tailings")));
-  s.residual_strength.reset();
-  s.mohr_coulomb = sample_params<MohrCoulomb>();
+  s.of<ResidualStrength>().reset();
+  s.of<MohrCoulomb>() = sample_params<MohrCoulomb>();
   CHECK(std::holds_alternative<Material<MohrCoulomb>>(make_material(s, "tailings")));
-  s.mohr_coulomb->dilation_angle = 1.0;
+  s.of<MohrCoulomb>()->dilation_angle = 1.0;
   CHECK_THAT(message_of([&] { make_material(s, "tailings"); }), Contains("dilation"));
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 PointConfig elastic() {
   PointConfig c;
-  c.material.laws.linear_elastic = {.youngs_modulus = 26e6, .poisson_ratio = 0.3};
+  c.material.laws.of<LinearElastic>() = LinearElastic::Params{.youngs_modulus = 26e6, .poisson_ratio = 0.3};
   c.stress.vertical = 100e3;
   return c;
 }
@@ -75,13 +75,13 @@ TEST_CASE("settings of a point that cannot be run are refused", "[point]") {
   c = elastic();
   c.path = {{.strain_xx = 1e-3, .stress_xx = -1e3}};
   CHECK_THROWS_WITH(check(c), Contains("leg 1") && Contains("xx"));
-  c.material.laws.linear_elastic.reset();
+  c.material.laws.of<LinearElastic>().reset();
   CHECK_THROWS_WITH(check(c), Contains("0 laws"));
 }
 
 TEST_CASE("a stress beyond the strength names its leg", "[point]") {
   PointConfig c;
-  c.material.laws.residual_strength = {
+  c.material.laws.of<ResidualStrength>() = ResidualStrength::Params{
       .youngs_modulus = 10e6, .poisson_ratio = 0.45, .strength = 5e3, .soft_strength = 5e3};
   c.stress.vertical = 50e3;
   c.stress.k0 = 1.0;

@@ -30,6 +30,47 @@ inline ResidualStrength::Params sample(ResidualStrength::Params p) {
   p.soft_strength = 4e3;
   return p;
 }
+inline NeoHookean::Params sample(NeoHookean::Params p) {
+  p.youngs_modulus = 20e6;
+  p.poisson_ratio = 0.3;
+  return p;
+}
+inline DruckerPrager::Params sample(DruckerPrager::Params p) {
+  p.youngs_modulus = 20e6;
+  p.poisson_ratio = 0.3;
+  p.cohesion = 5e3;
+  p.friction_angle = 30.0 * kDegree;
+  p.dilation_angle = 10.0 * kDegree;
+  return p;
+}
+inline MuI::Params sample(MuI::Params p) {
+  p.youngs_modulus = 20e6;
+  p.poisson_ratio = 0.3;
+  p.mu_static = 0.38;
+  p.mu_limit = 0.64;
+  p.inertial_number = 0.28;
+  p.grain_size = 5e-3;
+  p.grain_density = 2500.0;
+  return p;
+}
+inline NewtonianFluid::Params sample(NewtonianFluid::Params p) {
+  p.bulk_modulus = 20e6;
+  p.viscosity = 50.0;
+  return p;
+}
+inline Bingham::Params sample(Bingham::Params p) {
+  p.bulk_modulus = 20e6;
+  p.viscosity = 50.0;
+  p.yield_stress = 200.0;
+  return p;
+}
+inline HerschelBulkley::Params sample(HerschelBulkley::Params p) {
+  p.bulk_modulus = 20e6;
+  p.consistency = 80.0;
+  p.flow_index = 0.5;
+  p.yield_stress = 200.0;
+  return p;
+}
 template <class M>
 typename M::Params sample_params() {
   return sample(typename M::Params{});
@@ -40,8 +81,8 @@ template <class M, int Dim>
 StressUpdate<typename M::State, Dim> update(const typename M::Constants& c,
                                             const typename M::State& state,
                                             const Stress<Dim>& sigma,
-                                            const StrainIncrement<Dim>& de) {
-  return M::template update<Dim>(c, state, sigma, de);
+                                            const StrainIncrement<Dim>& de, double dt = 1e-4) {
+  return update_law<M, Dim, double>(c, state, sigma, de, dt);
 }
 
 /// Whether an update left the elastic range.

@@ -1,0 +1,93 @@
+#include "tests/constitutive/sample_laws.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace flowslide;
+
+namespace {
+
+/// Shear stress after shearing at a constant rate for long.
+template <class M>
+double steady_shear(const typename M::Params& p, double rate, Stress<2> s = {}) {
+  const auto c = M::constants(p, 1.0);
+  typename M::State state = M::initial_state(p);
+  const double dt = 1e-5;
+  for (int i = 0; i < 20000; ++i) {
+    const auto r = update<M, 2>(c, state, s, {{0.0, 0.0, 0.0, rate * dt}}, dt);
+    s = r.stress;
+    state = r.state;
+  }
+  return s[3];
+}
+
+}  // namespace
+
+TEST_CASE("Fluids settle on their flow curve", "[constitutive]") {
+  const double rate = GENERATE(0.5, 3.0, 40.0);
+  const auto newton = sample_params<NewtonianFluid>();
+  CHECK(steady_shear<NewtonianFluid>(newton, rate) == Approx(newton.viscosity * rate));
+  const auto bingham = sample_params<Bingham>();
+  CHECK(steady_shear<Bingham>(bingham, rate) ==
+        Approx(bingham.yield_stress + bingham.viscosity * rate));
+  auto hb = sample_params<HerschelBulkley>();
+  for (const double n : {0.4, 1.0, 1.6}) {
+    hb.flow_index = n;
+    CHECK(steady_shear<HerschelBulkley>(hb, rate) ==
+          Approx(hb.yield_stress + hb.consistency * std::pow(rate, n)));
+  }
+}
+
+TEST_CASE("Below the yield stress a Bingham fluid does not flow", "[constitutive]") {
+  const auto p = sample_params<Bingham>();
+  const auto c = Bingham::constants(p, 1.0);
+  const double gamma = 0.9 * p.yield_stress / c.elastic.shear;
+  auto r = update<Bingham, 2>(c, {}, {}, {{0.0, 0.0, 0.0, gamma}});
+  const double held = r.stress[3];
+  for (int i = 0; i < 1000; ++i) r = update<Bingham, 2>(c, r.state, r.stress, {});
+  CHECK(r.stress[3] == held);
+  CHECK(r.state.plastic_strain == 0.0);
+  // Control: a Newtonian fluid gives way.
+  const auto cn = NewtonianFluid::constants(sample_params<NewtonianFluid>(), 1.0);
+  auto n = update<NewtonianFluid, 2>(cn, {}, {}, {{0.0, 0.0, 0.0, gamma}});
+  for (int i = 0; i < 1000; ++i) n = update<NewtonianFluid, 2>(cn, n.state, n.stress, {});
+  CHECK(std::abs(n.stress[3]) < 1e-6 * held);
+}
+
+TEST_CASE("Pressure follows the equation of state, and tension opens a gap", "[constitutive]") {
+  auto p = sample_params<NewtonianFluid>();
+  p.eos_exponent = GENERATE(1.0, 7.0);
+  const auto c = NewtonianFluid::constants(p, 1.0);
+  const double log_j = std::log(0.98);
+  StressUpdate<NewtonianFluid::State, 3> r{};
+  for (int i = 0; i < 100; ++i) {
+    const double e = log_j / 300.0;
+    r = update<NewtonianFluid, 3>(c, r.state, r.stress, {{e, e, e, 0.0, 0.0, 0.0}});
+  }
+  const double n = p.eos_exponent;
+  CHECK(r.state.volume_ratio == Approx(0.98).epsilon(1e-10));
+  CHECK(-mean_stress(r.stress) ==
+        Approx(p.bulk_modulus / n * (std::pow(0.98, -n) - 1.0)).epsilon(1e-8));
+  // Back and 5 % beyond: no tension; closed again: the same pressure as before.
+  for (const double total : {-log_j + 0.05, -0.05 + log_j}) {
+    for (int i = 0; i < 1000; ++i) {
+      const double e = total / 3000.0;
+      r = update<NewtonianFluid, 3>(c, r.state, r.stress, {{e, e, e, 0.0, 0.0, 0.0}});
+    }
+    if (total > 0.0) {
+      CHECK(mean_stress(r.stress) == Approx(0.0).margin(1.0));
+      CHECK(r.state.gap == Approx(0.05).epsilon(1e-3));
+    }
+  }
+  CHECK(-mean_stress(r.stress) ==
+        Approx(p.bulk_modulus / n * (std::pow(0.98, -n) - 1.0)).epsilon(1e-3));
+}
+
+TEST_CASE("Granular flow settles on mu(I)", "[constitutive]") {
+  const auto p = sample_params<MuI>();
+  const double pressure = GENERATE(500.0, 20e3), rate = GENERATE(1.0, 20.0, 200.0);
+  const Stress<2> start{{-pressure, -pressure, -pressure, 0.0}};
+  const double inertial = rate * p.grain_size * std::sqrt(p.grain_density / pressure);
+  const double mu = p.mu_static + (p.mu_limit - p.mu_static) / (p.inertial_number / inertial + 1.0);
+  CHECK(steady_shear<MuI>(p, rate, start) == Approx(mu * pressure).epsilon(1e-6));
+  CHECK(mu > 1.0001 * p.mu_static);
+}
