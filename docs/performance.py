@@ -92,7 +92,8 @@ def main():
     page = DOCS / "performance.md"
     text = page.read_text()
     if speed:
-        facts = f"Compiler g++ {speed[0]['compiler']}, flags `{speed[0]['flags'].strip()}`, commit {commit}."
+        build = speed[0]
+        facts = f"Compiler g++ {build['compiler']}, flags `{build['flags'].strip()}`, commit {commit}."
         text = replace(text, "speed", facts + "\n\n" + speed_table(speed))
     if curves:
         text = replace(text, "curves", curve_table(curves))
