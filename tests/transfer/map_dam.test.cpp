@@ -47,11 +47,11 @@ MapMaterial soil(int tag, double density, double cohesion, double friction) {
   MapMaterial m;
   m.tags = {tag};
   m.density = density;
-  m.law.mohr_coulomb.emplace();
-  m.law.mohr_coulomb->youngs_modulus = 20e6;
-  m.law.mohr_coulomb->poisson_ratio = 0.3;
-  m.law.mohr_coulomb->cohesion = cohesion;
-  m.law.mohr_coulomb->friction_angle = friction;
+  m.law.of<MohrCoulomb>().emplace();
+  m.law.of<MohrCoulomb>()->youngs_modulus = 20e6;
+  m.law.of<MohrCoulomb>()->poisson_ratio = 0.3;
+  m.law.of<MohrCoulomb>()->cohesion = cohesion;
+  m.law.of<MohrCoulomb>()->friction_angle = friction;
   return m;
 }
 
@@ -68,7 +68,7 @@ MapConfig dam() {
   MapMaterial& foundation = c.materials["foundation"];
   foundation.tags = {170};
   foundation.density = 1900.0;
-  foundation.law.linear_elastic = LinearElastic::Params{100e6, 0.3};
+  foundation.law.of<LinearElastic>() = LinearElastic::Params{100e6, 0.3};
   foundation.counts_for_runout = false;
   return c;
 }

@@ -48,11 +48,11 @@ MapMaterial soil(std::vector<int> tags) {
   MapMaterial m;
   m.tags = std::move(tags);
   m.density = kDensity;
-  m.law.mohr_coulomb.emplace();
-  m.law.mohr_coulomb->youngs_modulus = 20e6;
-  m.law.mohr_coulomb->poisson_ratio = 0.3;
-  m.law.mohr_coulomb->cohesion = 1e3;
-  m.law.mohr_coulomb->friction_angle = 0.61;
+  m.law.of<MohrCoulomb>().emplace();
+  m.law.of<MohrCoulomb>()->youngs_modulus = 20e6;
+  m.law.of<MohrCoulomb>()->poisson_ratio = 0.3;
+  m.law.of<MohrCoulomb>()->cohesion = 1e3;
+  m.law.of<MohrCoulomb>()->friction_angle = 0.61;
   m.liquefied.emplace();
   m.liquefied->youngs_modulus = 5e6;
   m.liquefied->poisson_ratio = 0.49;
@@ -407,7 +407,7 @@ audit: {enforce: false}
   CHECK(c.box == std::vector<double>{-340.0, 87.5, -5.0, 100.0});
   CHECK(c.liquefied_return == LiquefiedReturn::mean_stress);
   CHECK(c.materials.at("tailings").liquefied->residual_strain == 1.0);
-  CHECK(c.materials.at("foundation").law.linear_elastic->youngs_modulus == 100e6);
+  CHECK(c.materials.at("foundation").law.of<LinearElastic>()->youngs_modulus == 100e6);
   CHECK_FALSE(c.materials.at("foundation").counts_for_runout);
   CHECK_FALSE(c.audit.enforce);
 
