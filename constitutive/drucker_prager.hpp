@@ -1,6 +1,7 @@
 #pragma once
 #include "config/schema.hpp"
 #include "constitutive/concept.hpp"
+#include "constitutive/gap.hpp"
 #include "constitutive/softening.hpp"
 
 #include <cmath>

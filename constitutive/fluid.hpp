@@ -1,5 +1,6 @@
 #pragma once
 #include "constitutive/concept.hpp"
+#include "constitutive/gap.hpp"
 #include "constitutive/softening.hpp"
 
 #include <cmath>

@@ -1,6 +1,7 @@
 #pragma once
 #include "config/schema.hpp"
 #include "constitutive/concept.hpp"
+#include "constitutive/gap.hpp"
 #include "constitutive/mohr_coulomb_return.hpp"
 #include "constitutive/principal.hpp"
 #include "constitutive/softening.hpp"

@@ -67,17 +67,21 @@ void link_tiles(Grid<Dim>& grid, Tiling<Dim>& tiling) {
   grid.blocks.clear();
   for (const std::int64_t key : keys) grid.blocks.push_back(unpack<Dim>(key));
   grid.nodes.resize(keys.size() * kBlockNodes<Dim>);
-  for (auto& list : tiling.colour) list.clear();
+  tiling.reach_first.assign(keys.size() + 1, 0);
   for (std::size_t i = 0; i < tiling.tiles.size(); ++i) {
     Tile<Dim>& t = tiling.tiles[i];
     for (int n = 0; n < kNeighbours<Dim>; ++n) {
       const auto at = std::lower_bound(keys.begin(), keys.end(), pack<Dim>(neighbour(t.block, n)));
       t.around[n] = static_cast<std::int32_t>(at - keys.begin());
     }
-    int colour = 0;
-    for (int d = 0; d < Dim; ++d) colour |= (t.block[d] & 1) << d;
-    tiling.colour[colour].push_back(static_cast<std::int32_t>(i));
+    for (const std::int32_t block : t.around) ++tiling.reach_first[block + 1];
   }
+  for (std::size_t b = 0; b < keys.size(); ++b) tiling.reach_first[b + 1] += tiling.reach_first[b];
+  tiling.reach.resize(tiling.tiles.size() * kNeighbours<Dim>);
+  std::vector<std::int32_t> next(tiling.reach_first.begin(), tiling.reach_first.end() - 1);
+  for (std::size_t i = 0; i < tiling.tiles.size(); ++i)
+    for (int n = 0; n < kNeighbours<Dim>; ++n)
+      tiling.reach[next[tiling.tiles[i].around[n]]++] = {static_cast<std::int32_t>(i), n};
 }
 
 template <int Dim>

@@ -18,14 +18,14 @@ struct BinningScratch {
 };
 
 /// Sorts the points by (tile, material, cell), ties in their present order, and rebuilds tiles,
-/// runs, colours and active blocks. `basis_shift` is where a basis function's support starts
+/// runs, reaches and active blocks. `basis_shift` is where a basis function's support starts
 /// relative to its point in cells (0.5 for the quadratic spline). Boundary lists are left to the
 /// caller.
 template <int Dim>
 void bin_points(Points<Dim>& p, Grid<Dim>& grid, Tiling<Dim>& tiling, double basis_shift,
                 BinningScratch& scratch);
 
-/// Tiles, colours, neighbours and active blocks from tiling.tiles[].block/first/last and runs,
+/// Neighbours, reaches and active blocks from tiling.tiles[].block/first/last and runs,
 /// which a checkpoint restores.
 template <int Dim>
 void link_tiles(Grid<Dim>& grid, Tiling<Dim>& tiling);

@@ -35,8 +35,9 @@ struct NodeSums {
   Pack u, moment[Dim], gradient[Dim];
 };
 
-template <int Dim, class Basis>
+template <int Dim, class Basis, class Fetch>
 [[gnu::always_inline]] inline NodeSums<Dim> sum_nodes(const Stencil<Dim, Basis>& s,
+                                                      const Fetch& fetch,
                                                       const double* v) noexcept {
   constexpr int N = Basis::nodes, W = kLocalWidth<Dim, Basis>;
   NodeSums<Dim> r;
@@ -46,7 +47,7 @@ template <int Dim, class Basis>
     unroll<N>([&](auto j) {
       Pack a = 0, ax = 0, ag = 0;
       unroll<N>([&](auto i) {
-        const Pack vi = gather_pack(v + (i + W * j + (Dim == 3 ? W * W * l : 0)), s.at);
+        const Pack vi = fetch(v + (i + W * j + (Dim == 3 ? W * W * l : 0)));
         const Pack weighted = s.w[0][i] * vi;
         a += weighted;
         if constexpr (i > 0) ax += double(i) * weighted;
@@ -78,8 +79,8 @@ template <int Dim, class Basis>
 }
 
 /// sum w v over the nodes of a stencil.
-template <int Dim, class Basis>
-[[gnu::always_inline]] inline Pack interpolate(const Stencil<Dim, Basis>& s,
+template <int Dim, class Basis, class Fetch>
+[[gnu::always_inline]] inline Pack interpolate(const Stencil<Dim, Basis>& s, const Fetch& fetch,
                                                const double* v) noexcept {
   constexpr int N = Basis::nodes, W = kLocalWidth<Dim, Basis>;
   Pack sum = 0.0;
@@ -87,7 +88,7 @@ template <int Dim, class Basis>
     constexpr int i = n % N, j = n / N % N, l = n / (N * N);
     Pack weight = s.w[0][i] * s.w[1][j];
     if constexpr (Dim == 3) weight *= s.w[Dim - 1][l];
-    sum += weight * gather_pack(v + (i + W * j + W * W * l), s.at);
+    sum += weight * fetch(v + (i + W * j + W * W * l));
   });
   return sum;
 }
@@ -128,25 +129,28 @@ template <int Dim, class Basis, Transfer kTransfer>
           factor[e] = inverse / s.moment(e);
       });
     }
-    unroll<Dim>([&](auto d) {
-      const NodeSums<Dim> sums = sum_nodes<Dim, Basis>(s, velocity.v[d]);
-      unroll<Dim>([&](auto e) {
-        const Pack gradient = sums.gradient[e] * inverse;
-        store_pack(scratch.gradient[Dim * d + e].data() + (q - tile.first), gradient, count);
-        if constexpr (kGradient) store_pack(p.c[Dim * d + e].data() + q, gradient, count);
-        // sum w v (x_i - x_p) = h (moment + r u)
-        if constexpr (kMoment)
-          store_pack(p.c[Dim * d + e].data() + q, factor[e] * (sums.moment[e] + s.r[e] * sums.u),
-                     count);
+    const auto take = [&](const auto& fetch) [[gnu::always_inline]] {
+      unroll<Dim>([&](auto d) {
+        const NodeSums<Dim> sums = sum_nodes<Dim, Basis>(s, fetch, velocity.v[d]);
+        unroll<Dim>([&](auto e) {
+          const Pack gradient = sums.gradient[e] * inverse;
+          store_pack(scratch.gradient[Dim * d + e].data() + (q - tile.first), gradient, count);
+          if constexpr (kGradient) store_pack(p.c[Dim * d + e].data() + q, gradient, count);
+          // sum w v (x_i - x_p) = h (moment + r u)
+          if constexpr (kMoment)
+            store_pack(p.c[Dim * d + e].data() + q, factor[e] * (sums.moment[e] + s.r[e] * sums.u),
+                       count);
+        });
+        Pack v = sums.u;
+        if constexpr (kKeep) {
+          const Pack gain = interpolate<Dim, Basis>(s, fetch, change.v[d]);
+          v += keep * (load_pack(p.v[d].data() + q, count) + gain - sums.u);
+        }
+        store_pack(p.v[d].data() + q, v, count);
+        store_pack(moved[d].data() + q, load_pack(p.x[d].data() + q, count) + dt * sums.u, count);
       });
-      Pack v = sums.u;
-      if constexpr (kKeep) {
-        const Pack gain = interpolate<Dim, Basis>(s, change.v[d]);
-        v += keep * (load_pack(p.v[d].data() + q, count) + gain - sums.u);
-      }
-      store_pack(p.v[d].data() + q, v, count);
-      store_pack(moved[d].data() + q, load_pack(p.x[d].data() + q, count) + dt * sums.u, count);
-    });
+    };
+    with_fetch(s.at, take);
   }
 }
 
@@ -165,7 +169,7 @@ template <int Dim, class Basis>
     Stencil<Dim, Basis> s;
     evaluate_stencil<Dim, Basis>(p, q, count, grid, inverse, corner, s);
     unroll<Dim>([&](auto d) {
-      const NodeSums<Dim> sums = sum_nodes<Dim, Basis>(s, velocity.v[d]);
+      const NodeSums<Dim> sums = sum_nodes<Dim, Basis>(s, EachLane{s.at}, velocity.v[d]);
       unroll<Dim>([&](auto e) {
         store_pack(scratch.gradient[Dim * d + e].data() + (q - tile.first),
                    sums.gradient[e] * inverse, count);
@@ -190,7 +194,7 @@ template <int Dim, class Basis>
     evaluate_stencil<Dim, Basis>(p, q, count, grid, inverse, corner, s);
     unroll<Dim>([&](auto d) {
       store_pack(scratch.velocity[d].data() + (q - tile.first),
-                 interpolate<Dim, Basis>(s, velocity.v[d]), count);
+                 interpolate<Dim, Basis>(s, EachLane{s.at}, velocity.v[d]), count);
     });
   }
 }

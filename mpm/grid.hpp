@@ -38,10 +38,10 @@ using Coordinate = std::array<std::int32_t, Dim>;  ///< block or node coordinate
 
 template <int Dim>
 struct Grid {
-  double h = 0.0;                            ///< spacing [m]
-  std::array<double, Dim> origin{};          ///< position of node 0 [m]
-  std::vector<Coordinate<Dim>> blocks;       ///< active blocks, ascending
-  std::vector<Node> nodes;                   ///< kBlockNodes per block
+  double h = 0.0;                       ///< spacing [m]
+  std::array<double, Dim> origin{};     ///< position of node 0 [m]
+  std::vector<Coordinate<Dim>> blocks;  ///< active blocks, ascending
+  std::vector<Node> nodes;              ///< kBlockNodes per block
 };
 
 /// A tile is a block that owns points. They may have drifted up to one cell out of it.
@@ -50,6 +50,11 @@ struct Tile {
   Coordinate<Dim> block{};
   std::int32_t first = 0, last = 0;                     ///< points [first, last)
   std::array<std::int32_t, kNeighbours<Dim>> around{};  ///< indices into Grid::blocks, x fastest
+};
+
+/// A tile whose points reach into a block, which is neighbour `place` of Tile::around.
+struct Reach {
+  std::int32_t tile, place;
 };
 
 /// Points [first, last) of one material inside one tile.
@@ -62,8 +67,8 @@ struct Tiling {
   std::vector<Tile<Dim>> tiles;
   std::vector<std::int32_t> run_first;  ///< per tile, into runs; one more at the end
   std::vector<MaterialRun> runs;
-  /// Tiles by colour: those of one colour share no node.
-  std::array<std::vector<std::int32_t>, power<Dim>(2)> colour;
+  std::vector<std::int32_t> reach_first;  ///< per block, into reach; one more at the end
+  std::vector<Reach> reach;               ///< tiles ascending within a block
 };
 
 /// Width of the nodes a tile's points can touch: one cell of drift on each side.

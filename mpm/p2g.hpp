@@ -1,9 +1,6 @@
 #pragma once
 #include "mpm/local_grid.hpp"
-#include "mpm/node_vector.hpp"
 #include "mpm/stencil.hpp"
-
-#include <cstring>
 
 /// Particle to grid: mass, momentum (with the affine field) and internal force in one sweep.
 /// m_i = sum w m;  (mv)_i = sum w m (v + C (x_i - x_p));  f_i = -sum V sigma grad w.
@@ -67,18 +64,17 @@ template <int Dim, class Basis, Scatter kScatter>
   for (int e = 1; e < Dim; ++e) transpose(b[e], out.other[e - 1]);
 }
 
-/// Adds the points of a tile to `nodes` (laid out as grid.nodes). With Scatter::force `mean_change`
-/// is added to the normal stresses of each point of the tile: what F-bar does to the force. With
+/// The points of a tile into its `window` (kWindowNodes). With Scatter::force `mean_change` is
+/// added to the normal stresses of each point of the tile: what F-bar does to the force. With
 /// Scatter::velocity `velocity` is what the points have.
 template <int Dim, class Basis, Scatter kScatter>
 [[gnu::flatten]] void scatter_tile(const Points<Dim>& p, const Tile<Dim>& tile,
                                    const double* mean_change, const TileVelocity<Dim>* velocity,
-                                   const Grid<Dim>& grid, Node* nodes) noexcept {
+                                   const Grid<Dim>& grid, NodeVector* window) noexcept {
   constexpr int N = Basis::nodes, W = kLocalWidth<Dim, Basis>, T = power<Dim>(N);
   // Sums of the nodes of one point stay in registers while points of the same cell follow.
   constexpr bool kHold = T <= 16;
-  alignas(64) NodeVector local[power<Dim>(W)];
-  std::memset(static_cast<void*>(local), 0, sizeof local);
+  std::memset(static_cast<void*>(window), 0, sizeof(NodeVector) * kWindowNodes<Dim, Basis>);
   constexpr auto offset = [](int n) { return n % N + W * (n / N % N) + W * W * (n / (N * N)); };
   const double h = grid.h, inverse = 1.0 / h;
   const std::array<double, Dim> corner = window_corner<Dim>(tile);
@@ -105,10 +101,10 @@ template <int Dim, class Basis, Scatter kScatter>
       });
     });
     for (int k = 0; k < count; ++k) {
-      NodeVector* at = local + s.at[k];
+      NodeVector* at = window + s.at[k];
       if constexpr (kHold) {
         if (s.at[k] != current) {
-          if (current >= 0) unroll<T>([&](auto n) { local[current + offset(n)] = held[n]; });
+          if (current >= 0) unroll<T>([&](auto n) { window[current + offset(n)] = held[n]; });
           unroll<T>([&](auto n) { held[n] = at[offset(n)]; });
           current = s.at[k];
         }
@@ -152,13 +148,7 @@ template <int Dim, class Basis, Scatter kScatter>
     }
   }
   if constexpr (kHold)
-    if (current >= 0) unroll<T>([&](auto n) { local[current + offset(n)] = held[n]; });
-
-  for_each_row<Dim, W>(tile, [&](int from, std::int32_t block, int to, int count) {
-    auto* target =
-        reinterpret_cast<NodeVector*>(nodes + std::size_t(block) * kBlockNodes<Dim> + to);
-    for (int i = 0; i < count; ++i) target[i] += local[from + i];
-  });
+    if (current >= 0) unroll<T>([&](auto n) { window[current + offset(n)] = held[n]; });
 }
 
 }  // namespace flowslide::mpm

@@ -2,45 +2,33 @@
 #include "mpm/g2p.hpp"
 #include "mpm/p2g.hpp"
 #include "mpm/simulation.hpp"
-
-#include <cstring>
+#include "mpm/take_turns.hpp"
 
 /// Sweeps over the grid beside the plain step: velocities of the points mapped to a second set of
 /// nodes (usf, musl), and the series of the full mass matrix (fmpm). All are called by every thread
 /// of a parallel region and end with a barrier.
 namespace flowslide::mpm {
 
-/// Calls f(tile index) for all tiles, those of one colour at a time.
-template <int Dim, class F>
-void scatter_coloured(const Tiling<Dim>& tiling, F&& f) {
-  for (const auto& colour : tiling.colour) {
-    const auto count = static_cast<std::int32_t>(colour.size());
-#pragma omp for schedule(dynamic, 1)
-    for (std::int32_t i = 0; i < count; ++i) f(colour[i]);
-  }
-}
-
-template <int Dim>
-void clear_nodes(std::vector<Node>& nodes, std::int32_t blocks) {
-#pragma omp for schedule(static)
-  for (std::int32_t b = 0; b < blocks; ++b)
-    std::memset(static_cast<void*>(nodes.data() + std::size_t(b) * kBlockNodes<Dim>), 0,
-                sizeof(Node) * kBlockNodes<Dim>);
+template <int Dim, class Basis>
+NodeVector* window_of(StepScratch<Dim>& scratch, std::int32_t tile) noexcept {
+  return reinterpret_cast<NodeVector*>(scratch.windows.data() +
+                                       std::size_t(tile) * kWindowNodes<Dim, Basis>);
 }
 
 /// Velocities of the points as `nodes` see them, boundary conditions included.
 template <int Dim, class Basis>
-void map_velocities(Simulation<Dim>& s, std::vector<Node>& nodes) {
+void map_velocities(Simulation<Dim>& s, StepScratch<Dim>& scratch, int thread) {
   using L = NodeLayout<Dim>;
   const auto blocks = static_cast<std::int32_t>(s.grid.blocks.size());
-  clear_nodes<Dim>(nodes, blocks);
-  scatter_coloured(s.tiling, [&](std::int32_t i) {
+  std::vector<Node>& nodes = scratch.second;
+  take_turns(scratch.shares, thread, [&](std::int32_t i) {
     scatter_tile<Dim, Basis, Scatter::momentum>(s.points, s.tiling.tiles[i], nullptr, nullptr,
-                                                s.grid, nodes.data());
+                                                s.grid, window_of<Dim, Basis>(scratch, i));
   });
   const double floor = kMassFloor * s.full_mass;
-#pragma omp for schedule(dynamic, 8)
+#pragma omp for schedule(static)
   for (std::int32_t b = 0; b < blocks; ++b) {
+    sum_windows<Dim, Basis>(s.tiling, scratch.windows.data(), b, nodes.data());
     Node* block = nodes.data() + std::size_t(b) * kBlockNodes<Dim>;
     for (int n = 0; n < kBlockNodes<Dim>; ++n) {
       const double inverse = block[n].q[L::mass] > floor ? 1.0 / block[n].q[L::mass] : 0.0;
@@ -60,24 +48,25 @@ void map_velocities(Simulation<Dim>& s, std::vector<Node>& nodes) {
 /// v^(k) = sum_{j<k} (I - P)^j v with P v = m^-1 sum_p w m_p sum w v (Nairn & Hammerquist 2021).
 /// Momentum stays: the sum of m (I - P) v is zero.
 template <int Dim, class Basis>
-void approach_full_mass(Simulation<Dim>& s, std::vector<Node>& rest, std::vector<Node>& mapped,
-                        GridWork<Dim>& work, TileScratch<Dim>& mine) {
+void approach_full_mass(Simulation<Dim>& s, StepScratch<Dim>& scratch, int thread) {
   using L = NodeLayout<Dim>;
   const auto blocks = static_cast<std::int32_t>(s.grid.blocks.size());
+  std::vector<Node>&rest = scratch.second, &mapped = scratch.third;
+  TileScratch<Dim>& mine = scratch.tile[thread];
   const double floor = kMassFloor * s.full_mass;
 #pragma omp for schedule(static)
   for (std::int32_t b = 0; b < blocks * kBlockNodes<Dim>; ++b)
     for (int d = 0; d < Dim; ++d) rest[b].q[L::momentum + d] = s.grid.nodes[b].q[L::momentum + d];
   for (int term = 1; term < s.settings.fmpm_order; ++term) {
-    clear_nodes<Dim>(mapped, blocks);
-    scatter_coloured(s.tiling, [&](std::int32_t i) {
+    take_turns(scratch.shares, thread, [&](std::int32_t i) {
       const Tile<Dim>& tile = s.tiling.tiles[i];
       interpolate_tile<Dim, Basis>(s.points, tile, s.grid, rest.data(), mine);
       scatter_tile<Dim, Basis, Scatter::velocity>(s.points, tile, nullptr, &mine.velocity, s.grid,
-                                                  mapped.data());
+                                                  window_of<Dim, Basis>(scratch, i));
     });
-#pragma omp for schedule(dynamic, 8)
+#pragma omp for schedule(static)
     for (std::int32_t b = 0; b < blocks; ++b) {
+      sum_windows<Dim, Basis>(s.tiling, scratch.windows.data(), b, mapped.data());
       const std::size_t first = std::size_t(b) * kBlockNodes<Dim>;
       for (std::size_t n = first; n < first + kBlockNodes<Dim>; ++n) {
         const double m = s.grid.nodes[n].q[L::mass];
@@ -96,7 +85,8 @@ void approach_full_mass(Simulation<Dim>& s, std::vector<Node>& rest, std::vector
     for (std::size_t k = 0; k < s.contact.nodes.size(); ++k) {
       auto& q = s.grid.nodes[s.contact.nodes[k]].q;
       for (int d = 0; d < Dim; ++d) {
-        work.boundary_impulse[d] += q[L::mass] * (s.contact.velocity[k][d] - q[L::momentum + d]);
+        scratch.contact_work.boundary_impulse[d] +=
+            q[L::mass] * (s.contact.velocity[k][d] - q[L::momentum + d]);
         q[L::momentum + d] = s.contact.velocity[k][d];
       }
     }

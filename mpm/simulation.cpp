@@ -1,5 +1,7 @@
 #include "mpm/simulation.hpp"
 
+#include "mpm/local_grid.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -23,6 +25,9 @@ double step_bound(const StepSettings& s) {
   }
   return 2.0 * s.fmpm_order * Basis::gradient_bound;
 }
+
+/// What a tile costs beside its points, in points.
+constexpr double kTileWeight = 30.0;
 
 }  // namespace
 
@@ -52,6 +57,12 @@ void prepare(Simulation<Dim>& s, StepScratch<Dim>& scratch, bool rebin) {
   }
   visit_basis(s.settings.basis, [&]<class Basis>(Basis) {
     place_walls<Dim, Basis>(s.grid, s.ground, s.rollers, s.contact);
+    scratch.windows.resize(s.tiling.tiles.size() * kWindowNodes<Dim, Basis>);
+  });
+  scratch.span.resize(s.points.size() + Pack::lanes);
+  scratch.scattered = false;
+  deal(scratch.shares, static_cast<std::int32_t>(s.tiling.tiles.size()), [&](std::int32_t i) {
+    return double(s.tiling.tiles[i].last - s.tiling.tiles[i].first) + kTileWeight;
   });
   if (rebin) s.contact.impulse.assign(s.contact.walls.size(), {});
   std::size_t most = 0;
@@ -60,7 +71,6 @@ void prepare(Simulation<Dim>& s, StepScratch<Dim>& scratch, bool rebin) {
   for (auto& t : scratch.tile) {
     for (auto& g : t.gradient) g.resize(most);
     for (auto& v : t.velocity) v.resize(most);
-    t.average.span.resize(most);
     t.average.change.resize(most);
     t.average.value.resize(most);
     t.average.sum.resize(kSpans<Dim>);

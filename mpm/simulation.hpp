@@ -2,6 +2,7 @@
 #include "mpm/binning.hpp"
 #include "mpm/contact.hpp"
 #include "mpm/momentum.hpp"
+#include "mpm/shares.hpp"
 #include "mpm/stress.hpp"
 
 #include <cstdint>
@@ -61,13 +62,19 @@ struct Simulation {
 template <int Dim>
 struct StepScratch {
   BinningScratch binning;
+  std::vector<Share> shares;             ///< tiles of each thread
+  std::vector<Node> windows;             ///< per tile what its points give to their nodes
+  std::vector<std::int32_t> span;        ///< per point, where it was when it was scattered
+  bool scattered = false;                ///< windows hold the present points; false after changes
   std::vector<TileScratch<Dim>> tile;    ///< per thread
   std::vector<StressWork> stress_work;   ///< per tile
   std::vector<GridWork<Dim>> grid_work;  ///< per block
   GridWork<Dim> contact_work;
   std::vector<Node> second, third;  ///< as grid.nodes, where update or transfer need them
   std::array<std::vector<double>, Dim> moved;  ///< new positions of musl [m]
-  explicit StepScratch(int threads) : tile(threads) { binning.copy.resize(threads); }
+  explicit StepScratch(int threads) : shares(threads), tile(threads) {
+    binning.copy.resize(threads);
+  }
 };
 
 /// Time step by the point bound of docs/theory/time-step.md, the velocity and the strain limit [s].
@@ -80,7 +87,8 @@ template <int Dim>
 void prepare(Simulation<Dim>& s, StepScratch<Dim>& scratch, bool rebin);
 
 /// One step; nothing in it allocates, throws or depends on the number of threads, unless the points
-/// are binned anew.
+/// are binned anew. A sweep over the tiles leaves what the points give to the grid for the next
+/// step; who changes points between steps sets scratch.scattered to false.
 template <int Dim>
 void advance(Simulation<Dim>& s, StepScratch<Dim>& scratch);
 

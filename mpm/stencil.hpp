@@ -17,6 +17,48 @@ struct Stencil {
   }
 };
 
+/// How values at the nodes of eight points are fetched. Points follow one another by cell, so that
+/// most Packs hold points of two to four cells: as many broadcasts as cells, merged by masks, cost
+/// a fraction of a gather of eight addresses.
+template <int kMost>
+struct CellRuns {
+  std::int32_t at[kMost];
+  PackMask from[kMost];  ///< lanes of run k and later ones
+  [[gnu::always_inline]] Pack operator()(const double* v) const noexcept {
+    Pack r = v[at[0]];
+    unroll<kMost - 1>([&](auto k) { r = select(from[k + 1], Pack(v[at[k + 1]]), r); });
+    return r;
+  }
+};
+struct EachLane {
+  const std::int32_t* at;
+  [[gnu::always_inline]] Pack operator()(const double* v) const noexcept {
+    return gather_pack(v, at);
+  }
+};
+
+/// Calls f with the cheapest fetch for the lanes' lowest nodes `at`.
+template <class F>
+[[gnu::always_inline]] inline void with_fetch(const std::int32_t* at, F&& f) noexcept {
+  constexpr int kMost = 4;
+  CellRuns<kMost> four;
+  int runs = 1;
+  PackMask::Vector lane;
+  for (int k = 0; k < Pack::lanes; ++k) lane[k] = k;
+  for (int k = 0; k < kMost; ++k) four.at[k] = at[0], four.from[k] = {lane < 0};
+  for (int k = 1; k < Pack::lanes; ++k) {
+    if (at[k] == at[k - 1]) continue;
+    if (runs < kMost) four.at[runs] = at[k], four.from[runs] = {lane >= k};
+    ++runs;
+  }
+  if (runs <= 2)
+    f(CellRuns<2>{{four.at[0], four.at[1]}, {four.from[0], four.from[1]}});
+  else if (runs <= kMost)
+    f(four);
+  else
+    f(EachLane{at});
+}
+
 /// Position of the first node of a tile's window [cells].
 template <int Dim>
 std::array<double, Dim> window_corner(const Tile<Dim>& tile) noexcept {

@@ -16,25 +16,25 @@ std::span<const MaterialRun> runs_of(const Tiling<Dim>& tiling, std::int32_t til
           static_cast<std::size_t>(tiling.run_first[tile + 1] - tiling.run_first[tile])};
 }
 
-/// Mass, momentum and force of all points; call inside a parallel region.
+/// Mass, momentum and force of a tile's points into its window.
 template <int Dim, class Basis>
-void scatter_all(const Simulation<Dim>& s, Node* nodes, TileScratch<Dim>& mine) {
-  scatter_coloured(s.tiling, [&](std::int32_t i) {
-    const Tile<Dim>& tile = s.tiling.tiles[i];
-    find_spans<Dim, Basis>(s.points, tile, s.grid, mine.average);
-    average_over_spans<Dim>(
-        s.points, tile, runs_of(s.tiling, i), mine.average,
-        [&](const MaterialRun& run) { return s.averages(run.material); },
-        [&](std::int32_t k, int count) {
-          const auto& sigma = s.points.sigma;
-          const std::int32_t q = tile.first + k;
-          return (load_pack(sigma[0].data() + q, count) + load_pack(sigma[1].data() + q, count) +
-                  load_pack(sigma[2].data() + q, count)) /
-                 3.0;
-        });
-    scatter_tile<Dim, Basis, Scatter::force>(s.points, tile, mine.average.change.data(), nullptr,
-                                             s.grid, nodes);
-  });
+void scatter_points(const Simulation<Dim>& s, std::int32_t i, StepScratch<Dim>& scratch,
+                    TileScratch<Dim>& mine) {
+  const Tile<Dim>& tile = s.tiling.tiles[i];
+  mine.average.span = scratch.span.data() + tile.first;
+  find_spans<Dim, Basis>(s.points, tile, s.grid, mine.average);
+  average_over_spans<Dim>(
+      s.points, tile, runs_of(s.tiling, i), mine.average,
+      [&](const MaterialRun& run) { return s.averages(run.material); },
+      [&](std::int32_t k, int count) {
+        const auto& sigma = s.points.sigma;
+        const std::int32_t q = tile.first + k;
+        return (load_pack(sigma[0].data() + q, count) + load_pack(sigma[1].data() + q, count) +
+                load_pack(sigma[2].data() + q, count)) /
+               3.0;
+      });
+  scatter_tile<Dim, Basis, Scatter::force>(s.points, tile, mine.average.change.data(), nullptr,
+                                           s.grid, window_of<Dim, Basis>(scratch, i));
 }
 
 template <int Dim, class Basis>
@@ -61,7 +61,6 @@ void gather_points(Simulation<Dim>& s, const Tile<Dim>& tile, double keep,
 template <int Dim, class Basis>
 void step(Simulation<Dim>& s, StepScratch<Dim>& scratch) {
   const double dt = s.dt;
-  const auto tiles = static_cast<std::int32_t>(s.tiling.tiles.size());
   const auto blocks = static_cast<std::int32_t>(s.grid.blocks.size());
   const MomentumSettings momentum{dt, s.settings.gravity, s.settings.cundall};
   const double keep = s.settings.transfer == Transfer::flip ? s.settings.flip_share
@@ -73,42 +72,45 @@ void step(Simulation<Dim>& s, StepScratch<Dim>& scratch) {
 
 #pragma omp parallel num_threads(threads)
   {
-    TileScratch<Dim>& mine = scratch.tile[omp_get_thread_num()];
+    const int thread = omp_get_thread_num();
+    TileScratch<Dim>& mine = scratch.tile[thread];
     const auto strain = [&](std::int32_t i) {
-      const Tile<Dim>& tile = s.tiling.tiles[i];
-      scratch.stress_work[i] = update_stress<Dim>(s.points, tile, runs_of(s.tiling, i), s.materials,
-                                                  dt, mine, s.settings.average_volume);
+      scratch.stress_work[i] = update_stress<Dim>(s.points, s.tiling.tiles[i], runs_of(s.tiling, i),
+                                                  s.materials, dt, mine, s.settings.average_volume);
     };
     const auto strain_from_points = [&] {
-      map_velocities<Dim, Basis>(s, scratch.second);
-#pragma omp for schedule(dynamic, 1)
-      for (std::int32_t i = 0; i < tiles; ++i) {
+      map_velocities<Dim, Basis>(s, scratch, thread);
+      take_turns(scratch.shares, thread, [&](std::int32_t i) {
         const Tile<Dim>& tile = s.tiling.tiles[i];
+        mine.average.span = scratch.span.data() + tile.first;
         find_spans<Dim, Basis>(s.points, tile, s.grid, mine.average);
         gather_gradient<Dim, Basis>(s.points, tile, s.grid, scratch.second.data(), mine);
         strain(i);
-      }
+      });
     };
     if (update == Update::usf) strain_from_points();
-    clear_nodes<Dim>(s.grid.nodes, blocks);
-    scatter_all<Dim, Basis>(s, s.grid.nodes.data(), mine);
-#pragma omp for schedule(dynamic, 8)
-    for (std::int32_t b = 0; b < blocks; ++b)
+    if (!scratch.scattered)
+      take_turns(scratch.shares, thread,
+                 [&](std::int32_t i) { scatter_points<Dim, Basis>(s, i, scratch, mine); });
+#pragma omp for schedule(static)
+    for (std::int32_t b = 0; b < blocks; ++b) {
+      sum_windows<Dim, Basis>(s.tiling, scratch.windows.data(), b, s.grid.nodes.data());
       scratch.grid_work[b] = update_momentum<Dim>(s.grid, b, momentum, s.full_mass);
+    }
 #pragma omp single
     scratch.contact_work = hold_at_walls(s.grid, s.contact, momentum, s.full_mass);
-    if (s.settings.transfer == Transfer::fmpm)
-      approach_full_mass<Dim, Basis>(s, scratch.second, scratch.third, scratch.contact_work, mine);
-#pragma omp for schedule(dynamic, 1)
-    for (std::int32_t i = 0; i < tiles; ++i) {
-      const Tile<Dim>& tile = s.tiling.tiles[i];
-      if (update == Update::symplectic)
-        find_spans<Dim, Basis>(s.points, tile, s.grid, mine.average);
-      gather_points<Dim, Basis>(s, tile, keep, moved, mine);
-      if (update == Update::symplectic) strain(i);
-    }
+    if (s.settings.transfer == Transfer::fmpm) approach_full_mass<Dim, Basis>(s, scratch, thread);
+    take_turns(scratch.shares, thread, [&](std::int32_t i) {
+      gather_points<Dim, Basis>(s, s.tiling.tiles[i], keep, moved, mine);
+      if (update != Update::symplectic) return;
+      // The spans are those of the positions before this step, found when they were scattered.
+      mine.average.span = scratch.span.data() + s.tiling.tiles[i].first;
+      strain(i);
+      scatter_points<Dim, Basis>(s, i, scratch, mine);
+    });
     if (update == Update::musl) strain_from_points();
   }
+  scratch.scattered = update == Update::symplectic;
   if (update == Update::musl) s.points.x.swap(scratch.moved);
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include "constitutive/gap.hpp"
 #include "mpm/rotation.hpp"
 #include "mpm/stress.hpp"
 
@@ -77,6 +78,8 @@ template <int Dim, class M>
     T present = modulus;
     if constexpr (requires { M::template present_modulus<Dim>(constants, result.state, sigma); })
       present = M::template present_modulus<Dim>(constants, result.state, result.stress);
+    else if constexpr (requires { result.state.gap; })
+      present = modulus_with_gap(material.elastic, result.state.gap);
     wave2 = max(wave2, present * new_volume / read(p.mass, q));
     T v2 = 0.0, l2 = 0.0;
     unroll<Dim>([&](auto d) {

@@ -16,11 +16,11 @@ using SpanSum = double __attribute__((vector_size(16)));
 
 /// Buffers for one tile, one per thread; those per point are longer by the lanes of a Pack.
 struct SpanScratch {
-  std::vector<std::int32_t> span;  ///< per point of the tile
-  std::vector<double> change;      ///< per point: average minus own value, 0 where not averaged
-  std::vector<double> value;       ///< per point
-  std::vector<SpanSum> sum;        ///< per span
-  std::vector<double> mean;        ///< per span
+  std::int32_t* span = nullptr;  ///< per point of the tile, within StepScratch::span
+  std::vector<double> change;    ///< per point: average minus own value, 0 where not averaged
+  std::vector<double> value;     ///< per point
+  std::vector<SpanSum> sum;      ///< per span
+  std::vector<double> mean;      ///< per span
 };
 
 template <int Dim>
@@ -74,7 +74,7 @@ template <int Dim, class Averaged, class Value>
       const int count = std::min<int>(Pack::lanes, run.last - q);
       const std::int32_t k = q - tile.first;
       const Pack change =
-          on ? gather_pack(s.mean.data(), s.span.data() + k) - load_pack(s.value.data() + k, count)
+          on ? gather_pack(s.mean.data(), s.span + k) - load_pack(s.value.data() + k, count)
              : Pack(0.0);
       store_pack(s.change.data() + k, change, count);
     }

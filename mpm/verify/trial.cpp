@@ -37,6 +37,7 @@ void Trial::rebin() { prepare(sim, scratch, true); }
 double Trial::next_dt() const { return stable_step(sim); }
 
 void Trial::step() {
+  scratch.scattered = false;  // scenes change points by hand between steps
   advance(sim, scratch);
   if (!std::isfinite(sim.last.max_speed2) || !(sim.dt > 0.0))
     throw NumericsError(

@@ -1,5 +1,8 @@
 #include "mpm/binning.hpp"
 
+#include "mpm/basis.hpp"
+#include "mpm/local_grid.hpp"
+
 #include <algorithm>
 #include <random>
 
@@ -97,23 +100,41 @@ TEMPLATE_TEST_CASE_SIG("Every point lies in its tile and in a run of its materia
   CHECK(b.grid.nodes.size() == b.grid.blocks.size() * kBlockNodes<Dim>);
 }
 
-TEMPLATE_TEST_CASE_SIG("Tiles of one colour share no block", "[mpm]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("Every block knows the tiles that reach into it", "[mpm]", ((int Dim), Dim),
+                       2, 3) {
   const Binned<Dim> b(random_points<Dim>(3000, 2));
-  std::size_t coloured = 0;
-  for (const auto& colour : b.tiling.colour) {
-    coloured += colour.size();
-    for (const std::int32_t i : colour) {
-      for (const std::int32_t j : colour) {
-        if (i == j) continue;
-        int apart = 0;
-        for (int d = 0; d < Dim; ++d)
-          apart =
-              std::max(apart, std::abs(b.tiling.tiles[i].block[d] - b.tiling.tiles[j].block[d]));
-        REQUIRE(apart >= 2);
-      }
+  REQUIRE(b.tiling.reach_first.size() == b.grid.blocks.size() + 1);
+  CHECK(b.tiling.reach.size() == b.tiling.tiles.size() * kNeighbours<Dim>);
+  for (std::size_t block = 0; block < b.grid.blocks.size(); ++block) {
+    std::int32_t before = -1;
+    for (std::int32_t r = b.tiling.reach_first[block]; r < b.tiling.reach_first[block + 1]; ++r) {
+      const Reach reach = b.tiling.reach[r];
+      REQUIRE(b.tiling.tiles[reach.tile].around[reach.place] == std::int32_t(block));
+      REQUIRE(reach.tile > before);  // the order of summation, whatever the threads
+      before = reach.tile;
     }
   }
-  CHECK(coloured == b.tiling.tiles.size());
+}
+
+TEMPLATE_TEST_CASE_SIG("Windows add up to what goes to the grid", "[mpm]", ((int Dim), Dim), 2, 3) {
+  const Binned<Dim> b(random_points<Dim>(3000, 2));
+  using Basis = QuadraticBSpline;
+  constexpr int W = kLocalWidth<Dim, Basis>;
+  // Windows with small whole numbers: sums are exact in any order.
+  std::vector<Node> windows(b.tiling.tiles.size() * kWindowNodes<Dim, Basis>);
+  for (std::size_t i = 0; i < windows.size(); ++i) windows[i].q.fill(double(i % 97));
+  std::vector<double> expected(b.grid.nodes.size(), 0.0);
+  for (std::size_t t = 0; t < b.tiling.tiles.size(); ++t)
+    for_each_row<Dim, W>(b.tiling.tiles[t], [&](int from, std::int32_t block, int to, int count) {
+      for (int i = 0; i < count; ++i)
+        expected[std::size_t(block) * kBlockNodes<Dim> + to + i] +=
+            windows[t * kWindowNodes<Dim, Basis> + from + i].q[0];
+    });
+  std::vector<Node> nodes(b.grid.nodes.size());
+  for (std::size_t block = 0; block < b.grid.blocks.size(); ++block)
+    sum_windows<Dim, Basis>(b.tiling, windows.data(), std::int32_t(block), nodes.data());
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    for (const double q : nodes[n].q) REQUIRE(q == expected[n]);
 }
 
 TEST_CASE("Binning twice is binning once", "[mpm]") {

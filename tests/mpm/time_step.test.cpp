@@ -119,6 +119,23 @@ TEST_CASE("The time step stays below the limit of any layout of points", "[mpm]"
   CHECK(tightest > 0.5);  // safe, but not by waste: 0.866 of it is for lone points with APIC
 }
 
+TEST_CASE("A wide gap takes the bulk modulus out of the time step", "[mpm]") {
+  ParticleSet p = layout(20, 3, 0.3);
+  p.materials = {liquefied(1e6, 5e3)};  // nu = 0.49: K >> G
+  const auto step_with_gap = [&](double gap) {
+    Run run(p, unlimited(0.9));
+    std::fill(run.s.points.state[1].begin(), run.s.points.state[1].end(), gap);
+    run.step();
+    return stable_step(run.s);
+  };
+  const Elasticity e = Elasticity::from_young(1e6, 0.49);
+  const double closed = step_with_gap(0.0);
+  // One step can close 0.3, so K may act in it.
+  CHECK(step_with_gap(0.3) == Approx(closed));
+  CHECK(step_with_gap(0.5) ==
+        Approx(closed * std::sqrt((e.bulk + 2.0 * e.shear) / (2.0 * e.shear))));
+}
+
 TEST_CASE("Beyond its limit the scheme diverges, below it does not", "[mpm]") {
   // Lone points, whose modes the transfer back to the point does not filter with tpic.
   int diverged = 0;
