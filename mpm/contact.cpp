@@ -175,6 +175,9 @@ void place_walls(const Grid<Dim>& grid, const Ground& ground, const Rollers& rol
   add_level(std::max(first_x, ground.x.back()), last_x, ground.height.back());
 
   for (const auto& block : grid.blocks) {
+    const auto middle = [&](int d) { return grid.origin[d] + grid.h * (block[d] + 0.5) * B; };
+    const double below = -ground.nearest(middle(0), middle(up)).distance / grid.h;
+    if (below < kNetFrom - B || below > kNetTo + B) continue;  // all nodes lie within 0.71 B
     for (int n = 0; n < kBlockNodes<Dim>; ++n) {
       Coordinate<Dim> node;
       for (int d = 0, rest = n; d < Dim; ++d, rest /= B) node[d] = block[d] * B + rest % B;

@@ -55,12 +55,15 @@ GridWork<Dim> update_momentum(Grid<Dim>& grid, std::size_t block, const Momentum
   for (int n = 0; n < kBlockNodes<Dim>; ++n) {
     auto& q = nodes[n].q;
     const double m = q[L::mass];
-    const bool real = m > floor;
-    const double inverse = real ? 1.0 / m : 0.0;
+    if (!(m > floor)) {
+      for (int d = 0; d < Dim; ++d) q[L::momentum + d] = q[L::force + d] = 0.0;
+      continue;
+    }
+    const double inverse = 1.0 / m;
     for (int d = 0; d < Dim; ++d) {
       const double v = q[L::momentum + d] * inverse;
-      const double f = real ? q[L::force + d] : 0.0;
-      const double weight = real ? m * s.gravity[d] : 0.0;
+      const double f = q[L::force + d];
+      const double weight = m * s.gravity[d];
       const double drag = damping_force(s.cundall, f + weight, v);
       const double v_new = v + s.dt * (f + weight + drag) * inverse;
       const double path = 0.5 * s.dt * (v + v_new);

@@ -21,7 +21,7 @@ void map_velocities(Simulation<Dim>& s, StepScratch<Dim>& scratch, int thread) {
   using L = NodeLayout<Dim>;
   const auto blocks = static_cast<std::int32_t>(s.grid.blocks.size());
   std::vector<Node>& nodes = scratch.second;
-  take_turns(scratch.shares, thread, [&](std::int32_t i) {
+  take_turns(scratch.groups, thread, [&](std::int32_t i) {
     scatter_tile<Dim, Basis, Scatter::momentum>(s.points, s.tiling.tiles[i], nullptr, nullptr,
                                                 s.grid, window_of<Dim, Basis>(scratch, i));
   });
@@ -58,7 +58,7 @@ void approach_full_mass(Simulation<Dim>& s, StepScratch<Dim>& scratch, int threa
   for (std::int32_t b = 0; b < blocks * kBlockNodes<Dim>; ++b)
     for (int d = 0; d < Dim; ++d) rest[b].q[L::momentum + d] = s.grid.nodes[b].q[L::momentum + d];
   for (int term = 1; term < s.settings.fmpm_order; ++term) {
-    take_turns(scratch.shares, thread, [&](std::int32_t i) {
+    take_turns(scratch.groups, thread, [&](std::int32_t i) {
       const Tile<Dim>& tile = s.tiling.tiles[i];
       interpolate_tile<Dim, Basis>(s.points, tile, s.grid, rest.data(), mine);
       scatter_tile<Dim, Basis, Scatter::velocity>(s.points, tile, nullptr, &mine.velocity, s.grid,

@@ -8,13 +8,22 @@
 namespace flowslide::mpm {
 
 struct alignas(64) Share {
-  std::int32_t first = 0, last = 0;  ///< tiles
+  std::int32_t first = 0, last = 0;  ///< into Group::tiles
   std::int32_t next = 0;             ///< not yet begun; changed atomically
 };
 
-/// Deals items in runs of about equal weight, one run per share.
+/// Tiles that a sweep visits.
+struct Group {
+  std::vector<std::int32_t> tiles;
+  std::vector<Share> shares;  ///< one per thread
+};
+
+/// Deals a group in runs of about equal weight, one run per share.
 template <class Weight>
-void deal(std::vector<Share>& shares, std::int32_t count, Weight&& weight) {
+void deal(Group& group, Weight&& weight_of) {
+  auto& shares = group.shares;
+  const auto count = static_cast<std::int32_t>(group.tiles.size());
+  const auto weight = [&](std::int32_t i) { return weight_of(group.tiles[i]); };
   double total = 0.0, given = 0.0;
   for (std::int32_t i = 0; i < count; ++i) total += weight(i);
   std::int32_t i = 0;

@@ -29,6 +29,27 @@ double step_bound(const StepSettings& s) {
 /// What a tile costs beside its points, in points.
 constexpr double kTileWeight = 30.0;
 
+/// Tiles whose window holds no contact node need not wait for the walls.
+template <int Dim, class Basis>
+void group_tiles(const Simulation<Dim>& s, StepScratch<Dim>& scratch) {
+  std::vector<bool> held(s.grid.nodes.size(), false);
+  for (const std::int32_t node : s.contact.nodes) held[node] = true;
+  for (Group& group : scratch.groups) group.tiles.clear();
+  for (std::size_t t = 0; t < s.tiling.tiles.size(); ++t) {
+    bool touches = false;
+    for_each_row<Dim, kLocalWidth<Dim, Basis>>(
+        s.tiling.tiles[t], [&](int, std::int32_t block, int node, int count) {
+          for (int i = 0; i < count; ++i)
+            touches = touches || held[std::size_t(block) * kBlockNodes<Dim> + node + i];
+        });
+    scratch.groups[touches ? 1 : 0].tiles.push_back(static_cast<std::int32_t>(t));
+  }
+  for (Group& group : scratch.groups)
+    deal(group, [&](std::int32_t t) {
+      return double(s.tiling.tiles[t].last - s.tiling.tiles[t].first) + kTileWeight;
+    });
+}
+
 }  // namespace
 
 template <int Dim>
@@ -61,9 +82,7 @@ void prepare(Simulation<Dim>& s, StepScratch<Dim>& scratch, bool rebin) {
   });
   scratch.span.resize(s.points.size() + Pack::lanes);
   scratch.scattered = false;
-  deal(scratch.shares, static_cast<std::int32_t>(s.tiling.tiles.size()), [&](std::int32_t i) {
-    return double(s.tiling.tiles[i].last - s.tiling.tiles[i].first) + kTileWeight;
-  });
+  visit_basis(s.settings.basis, [&]<class Basis>(Basis) { group_tiles<Dim, Basis>(s, scratch); });
   if (rebin) s.contact.impulse.assign(s.contact.walls.size(), {});
   std::size_t most = 0;
   for (const Tile<Dim>& t : s.tiling.tiles) most = std::max<std::size_t>(most, t.last - t.first);

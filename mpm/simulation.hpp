@@ -62,17 +62,18 @@ struct Simulation {
 template <int Dim>
 struct StepScratch {
   BinningScratch binning;
-  std::vector<Share> shares;             ///< tiles of each thread
-  std::vector<Node> windows;             ///< per tile what its points give to their nodes
-  std::vector<std::int32_t> span;        ///< per point, where it was when it was scattered
-  bool scattered = false;                ///< windows hold the present points; false after changes
-  std::vector<TileScratch<Dim>> tile;    ///< per thread
-  std::vector<StressWork> stress_work;   ///< per tile
+  std::array<Group, 2> groups;          ///< tiles apart from walls, tiles that touch a contact node
+  std::vector<Node> windows;            ///< per tile what its points give to their nodes
+  std::vector<std::int32_t> span;       ///< per point, where it was when it was scattered
+  bool scattered = false;               ///< windows hold the present points; false after changes
+  std::vector<TileScratch<Dim>> tile;   ///< per thread
+  std::vector<StressWork> stress_work;  ///< per tile
   std::vector<GridWork<Dim>> grid_work;  ///< per block
   GridWork<Dim> contact_work;
   std::vector<Node> second, third;  ///< as grid.nodes, where update or transfer need them
   std::array<std::vector<double>, Dim> moved;  ///< new positions of musl [m]
-  explicit StepScratch(int threads) : shares(threads), tile(threads) {
+  explicit StepScratch(int threads) : tile(threads) {
+    for (Group& group : groups) group.shares.resize(threads);
     binning.copy.resize(threads);
   }
 };

@@ -80,7 +80,7 @@ void step(Simulation<Dim>& s, StepScratch<Dim>& scratch) {
     };
     const auto strain_from_points = [&] {
       map_velocities<Dim, Basis>(s, scratch, thread);
-      take_turns(scratch.shares, thread, [&](std::int32_t i) {
+      take_turns(scratch.groups, thread, [&](std::int32_t i) {
         const Tile<Dim>& tile = s.tiling.tiles[i];
         mine.average.span = scratch.span.data() + tile.first;
         find_spans<Dim, Basis>(s.points, tile, s.grid, mine.average);
@@ -90,17 +90,21 @@ void step(Simulation<Dim>& s, StepScratch<Dim>& scratch) {
     };
     if (update == Update::usf) strain_from_points();
     if (!scratch.scattered)
-      take_turns(scratch.shares, thread,
+      take_turns(scratch.groups, thread,
                  [&](std::int32_t i) { scatter_points<Dim, Basis>(s, i, scratch, mine); });
 #pragma omp for schedule(static)
     for (std::int32_t b = 0; b < blocks; ++b) {
       sum_windows<Dim, Basis>(s.tiling, scratch.windows.data(), b, s.grid.nodes.data());
       scratch.grid_work[b] = update_momentum<Dim>(s.grid, b, momentum, s.full_mass);
     }
-#pragma omp single
+    // One thread sees to the walls while the others begin with the tiles that do not touch them.
+#pragma omp single nowait
     scratch.contact_work = hold_at_walls(s.grid, s.contact, momentum, s.full_mass);
-    if (s.settings.transfer == Transfer::fmpm) approach_full_mass<Dim, Basis>(s, scratch, thread);
-    take_turns(scratch.shares, thread, [&](std::int32_t i) {
+    if (s.settings.transfer == Transfer::fmpm) {
+#pragma omp barrier
+      approach_full_mass<Dim, Basis>(s, scratch, thread);
+    }
+    take_turns(scratch.groups, thread, [&](std::int32_t i) {
       gather_points<Dim, Basis>(s, s.tiling.tiles[i], keep, moved, mine);
       if (update != Update::symplectic) return;
       // The spans are those of the positions before this step, found when they were scattered.
