@@ -120,9 +120,9 @@ Simulation<Dim> make_simulation(const ParticleSet& particles, const FlowConfig& 
              "out) lower "
              "ground.surface or raise the transfer box",
              particles.id[i], p.x[0][i], p.x[Dim - 1][i], depth);
-    const Elasticity& e = s.materials[p.material[i]].elastic;
-    s.last.max_wave2 =
-        std::max(s.last.max_wave2, (e.bulk + 2.0 * e.shear) * p.volume[i] / p.mass[i]);
+    const double modulus =
+        wave_modulus(s.materials[p.material[i]].elastic, s.averages(p.material[i]));
+    s.last.max_wave2 = std::max(s.last.max_wave2, modulus * p.volume[i] / p.mass[i]);
     double speed2 = 0.0;
     for (const auto& v : p.v) speed2 += v[i] * v[i];
     s.last.max_speed2 = std::max(s.last.max_speed2, speed2);

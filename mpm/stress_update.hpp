@@ -21,12 +21,11 @@ template <int Dim, class M>
 [[gnu::flatten]] StressWork update_run(Points<Dim>& p, const Tile<Dim>& tile,
                                        const MaterialRun& run, const SolverMaterial& material,
                                        const typename M::Constants& constants, double dt,
-                                       const TileScratch<Dim>& s) noexcept {
+                                       double modulus, const TileScratch<Dim>& s) noexcept {
   using T = Lanes<M>;
   using State = typename M::template StateOf<T>;
   constexpr int V = kVoigt<Dim>, S = static_cast<int>(M::state_names.size());
   constexpr int width = std::is_same_v<T, Pack> ? Pack::lanes : 1;
-  const double modulus = material.elastic.bulk + 2.0 * material.elastic.shear;
   StressWork work;
   T wave2 = 0.0, speed2 = 0.0, strain2 = 0.0;
   for (std::int32_t q = run.first; q < run.last; q += width) {
@@ -79,7 +78,7 @@ template <int Dim, class M>
     if constexpr (requires { M::template present_modulus<Dim>(constants, result.state, sigma); })
       present = M::template present_modulus<Dim>(constants, result.state, result.stress);
     else if constexpr (requires { result.state.gap; })
-      present = modulus_with_gap(material.elastic, result.state.gap);
+      present = modulus_with_gap(modulus, material.elastic.bulk, result.state.gap);
     wave2 = max(wave2, present * new_volume / read(p.mass, q));
     T v2 = 0.0, l2 = 0.0;
     unroll<Dim>([&](auto d) {
@@ -114,9 +113,10 @@ StressWork update_stress(Points<Dim>& p, const Tile<Dim>& tile, std::span<const 
   StressWork total;
   for (const MaterialRun& run : runs) {
     const SolverMaterial& m = materials[run.material];
+    const double modulus = wave_modulus(m.elastic, average && m.average_volume);
     total.add(std::visit(
         [&]<class M>(const Typed<M>& law) {
-          return update_run<Dim, M>(p, tile, run, m, law.constants, dt, s);
+          return update_run<Dim, M>(p, tile, run, m, law.constants, dt, modulus, s);
         },
         m.law));
   }
