@@ -26,6 +26,8 @@ struct Ground {
 struct Rollers {
   double left = -std::numeric_limits<double>::infinity();  ///< x [m]
   double right = std::numeric_limits<double>::infinity();  ///< x [m]
+  double near = -std::numeric_limits<double>::infinity();  ///< y [m], three dimensions only
+  double far = std::numeric_limits<double>::infinity();    ///< y [m], likewise
 };
 
 }  // namespace flowslide::mpm

@@ -4,15 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace flowslide::mpm {
 namespace {
 
 // Wall points this far below the soil's side of the ground catch what has slipped through [cells].
 constexpr double kNetFrom = 1.5, kNetTo = 4.5;
-constexpr int kMostSweeps = 30;
-// Largest correction of the last sweep, as a share of what the impulses do in all.
-constexpr double kSweepTolerance = 1e-3;
+constexpr int kMostSweeps = 100;
+// Largest correction of the last sweep, as a share of what the impulses do in all. Much more would
+// let the soil creep into the wall: nothing remembers how far it came.
+constexpr double kSweepTolerance = 1e-6;
 
 template <int Dim>
 std::int32_t find_block(const Grid<Dim>& grid, const Coordinate<Dim>& c) {
@@ -24,11 +26,20 @@ std::int32_t find_block(const Grid<Dim>& grid, const Coordinate<Dim>& c) {
                                              : -1;
 }
 
+/// A node's shape function at the distance t [cells].
+template <class Basis>
+double shape(double t) {
+  double w[Basis::nodes], g[Basis::nodes];
+  const double lowest = base_node<Basis>(t);
+  Basis::evaluate(t - lowest, w, g);
+  return lowest <= 0.0 && lowest > -Basis::nodes ? w[static_cast<int>(-lowest)] : 0.0;
+}
+
 template <int Dim>
 struct Placing {
   const Grid<Dim>& grid;
-  const Ground& ground;
   Contact<Dim>& contact;
+  Coordinate<Dim> low, high;            ///< outermost nodes of the active blocks
   std::vector<std::int32_t> grid_node;  ///< per entry
 
   /// Adds an entry for a node if its block is active.
@@ -54,43 +65,71 @@ struct Placing {
     if (wall.last > wall.first) contact.walls.push_back(wall);
   }
 
+  /// Wall points where a straight wall crosses the grid lines in direction `across` that stand at
+  /// node `line` of the axis `along`: `height` is where, `slope` how the wall rises from line to
+  /// line [cells]. In 3D the wall does not vary along the third axis: one for every node there.
   template <class Basis>
-  void add(const std::array<double, Dim>& at, WallPoint<Dim> wall) {
-    constexpr int N = Basis::nodes;
-    double w[Dim][N], g[Dim][N];
-    Coordinate<Dim> base;
-    for (int d = 0; d < Dim; ++d) {
-      const double x = (at[d] - grid.origin[d]) / grid.h;
-      const double lowest = base_node<Basis>(x);
-      base[d] = static_cast<std::int32_t>(lowest);
-      Basis::evaluate(x - lowest, w[d], g[d]);
-    }
-    const std::size_t first = grid_node.size();
-    std::size_t touching = first;
-    for (const bool near : {true, false}) {
-      for (int n = 0; n < power<Dim>(N); ++n) {
-        Coordinate<Dim> node;
-        double weight = 1.0, above = 0.0;
-        for (int d = 0, rest = n; d < Dim; ++d, rest /= N) {
-          node[d] = base[d] + rest % N;
-          weight *= w[d][rest % N];
-          above += wall.normal[d] * (grid.origin[d] + grid.h * node[d] - at[d]);
+  void add(int along, int across, std::int32_t line, double height, double slope,
+           const WallPoint<Dim>& wall) {
+    const int third = Dim == 3 ? 3 - along - across : 0;
+    // Mean of the shape functions of the line's nodes over the wall, weighted with the line's own:
+    // the share of each in a uniform pressure.
+    const double reach = 0.5 * Basis::nodes, tilt = std::abs(slope) * reach;
+    const auto first_node = static_cast<std::int32_t>(base_node<Basis>(height - tilt));
+    const auto last_node =
+        static_cast<std::int32_t>(base_node<Basis>(height + tilt)) + Basis::nodes;
+    Coordinate<Dim> node;
+    node[along] = line;
+    for (int j = Dim == 3 ? low[third] : 0; j <= (Dim == 3 ? high[third] : 0); ++j) {
+      if constexpr (Dim == 3) node[third] = j;
+      const std::size_t first = grid_node.size();
+      std::size_t touching = first;
+      for (const bool near : {true, false}) {
+        for (std::int32_t k = first_node; k < last_node; ++k) {
+          const double above = (k - height) * wall.normal[across];
+          if ((above < 0.5 + 1e-9) != near) continue;
+          double weight = 0.0;
+          for (double s = 0.25 - reach; s < reach; s += 0.5)
+            weight += 0.5 * shape<Basis>(s) * shape<Basis>(height + slope * s - k);
+          node[across] = k;
+          if (weight > 0.0) add_node(node, weight);
         }
-        if (weight > 0.0 && (above < 0.5 * grid.h + 1e-9 * grid.h) == near) add_node(node, weight);
+        if (near) touching = grid_node.size();
       }
-      if (near) touching = grid_node.size();
+      finish(wall, first, touching);
     }
-    finish(wall, first, touching);
+  }
+
+  /// The grid lines between two coordinates [m], both included.
+  [[nodiscard]] std::array<std::int32_t, 2> lines(int axis, double from, double to) const {
+    const double first = std::ceil((from - grid.origin[axis]) / grid.h - 1e-9);
+    const double last = std::floor((to - grid.origin[axis]) / grid.h + 1e-9);
+    return {static_cast<std::int32_t>(std::max<double>(first, low[axis])),
+            static_cast<std::int32_t>(std::min<double>(last, high[axis]))};
   }
 };
 
-/// Calls f(x) for the quarter points x = origin + (k/2 + 1/4) h between `from` and `to`: those of a
-/// lattice with two points per cell and direction, so that pressure at rest balances exactly.
-template <class F>
-void for_each_quarter(double from, double to, double origin, double h, F&& f) {
-  const double first = std::ceil(2.0 * (from - origin) / h - 0.5 - 1e-9);
-  const double last = std::floor(2.0 * (to - origin) / h - 0.5 + 1e-9);
-  for (double k = first; k <= last; k += 1.0) f(origin + (0.5 * k + 0.25) * h);
+/// A straight piece of the ground; ends may be infinite.
+struct Piece {
+  double x0, y0, x1, y1;  ///< [m]
+  [[nodiscard]] double height(double x) const { return y0 == y1 ? y0 : y0 + (x - x0) * slope(); }
+  [[nodiscard]] double slope() const { return y0 == y1 ? 0.0 : (y1 - y0) / (x1 - x0); }
+  [[nodiscard]] bool steep() const { return std::abs(y1 - y0) > x1 - x0; }
+  [[nodiscard]] std::array<double, 2> normal() const {
+    if (y0 == y1) return {0.0, 1.0};
+    const double length = std::hypot(x1 - x0, y1 - y0);
+    return {(y0 - y1) / length, (x1 - x0) / length};
+  }
+};
+
+std::vector<Piece> pieces(const Ground& g) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  std::vector<Piece> all{{-far, g.height.front(), g.x.front(), g.height.front()}};
+  for (std::size_t i = 0; i + 1 < g.x.size(); ++i)
+    if (g.x[i] != g.x[i + 1] || g.height[i] != g.height[i + 1])
+      all.push_back({g.x[i], g.height[i], g.x[i + 1], g.height[i + 1]});
+  all.push_back({g.x.back(), g.height.back(), far, g.height.back()});
+  return all;
 }
 
 }  // namespace
@@ -103,76 +142,71 @@ void place_walls(const Grid<Dim>& grid, const Ground& ground, const Rollers& rol
   c.weight.clear();
   c.nodes.clear();
   c.node.clear();
-  Placing<Dim> place{grid, ground, c, {}};
-  std::array<double, Dim> low, high;
-  low.fill(1e300);
-  high.fill(-1e300);
+  Placing<Dim> place{grid, c, {}, {}, {}};
+  place.low.fill(std::numeric_limits<std::int32_t>::max());
+  place.high.fill(std::numeric_limits<std::int32_t>::min());
   for (const auto& block : grid.blocks) {
     for (int d = 0; d < Dim; ++d) {
-      low[d] = std::min(low[d], grid.origin[d] + grid.h * block[d] * B);
-      high[d] = std::max(high[d], grid.origin[d] + grid.h * (block[d] * B + B - 1));
+      place.low[d] = std::min(place.low[d], block[d] * B);
+      place.high[d] = std::max(place.high[d], block[d] * B + B - 1);
     }
   }
-  // In 3D everything is repeated along y.
-  const auto along = [&](std::array<double, Dim> at, const WallPoint<Dim>& wall) {
-    if constexpr (Dim == 2) {
-      place.template add<Basis>(at, wall);
-    } else {
-      for_each_quarter(low[1], high[1], grid.origin[1], grid.h, [&](double y) {
-        at[1] = y;
-        place.template add<Basis>(at, wall);
-      });
-    }
-  };
+  const auto in_cells = [&](int axis, double x) { return (x - grid.origin[axis]) / grid.h; };
 
   for (const double x : {rollers.left, rollers.right}) {
     if (!std::isfinite(x)) continue;
     WallPoint<Dim> wall;
     wall.normal[0] = x == rollers.left ? 1.0 : -1.0;
     wall.holds = true;
-    for_each_quarter(low[up], high[up], grid.origin[up], grid.h, [&](double z) {
-      std::array<double, Dim> at{};
-      at[0] = x, at[up] = z;
-      along(at, wall);
-    });
+    for (std::int32_t k = place.low[up]; k <= place.high[up]; ++k)
+      place.template add<Basis>(up, 0, k, in_cells(0, x), 0.0, wall);
   }
-  const double first_x = std::max(low[0], rollers.left), last_x = std::min(high[0], rollers.right);
+  if constexpr (Dim == 3) {
+    for (const double y : {rollers.near, rollers.far}) {
+      if (!std::isfinite(y)) continue;
+      WallPoint<Dim> wall;
+      wall.normal[1] = y == rollers.near ? 1.0 : -1.0;
+      wall.holds = true;
+      for (std::int32_t k = place.low[up]; k <= place.high[up]; ++k)
+        place.template add<Basis>(up, 1, k, in_cells(1, y), 0.0, wall);
+    }
+  }
+  // Grid lines behind a roller still carry nodes whose functions reach the soil.
+  const double reach = 0.5 * Basis::nodes * grid.h * (1.0 - 1e-9);
+  const double first_x = rollers.left - reach, last_x = rollers.right + reach;
   WallPoint<Dim> level;
   level.normal[up] = 1.0;
   level.friction = ground.friction;
-  const auto add_level = [&](double from, double to, double height) {
-    for_each_quarter(from, to, grid.origin[0], grid.h, [&](double x) {
-      std::array<double, Dim> at{};
-      at[0] = x, at[up] = height;
-      along(at, level);
-    });
-  };
-  add_level(first_x, std::min(last_x, ground.x.front()), ground.height.front());
-  for (std::size_t i = 0; i + 1 < ground.x.size(); ++i) {
-    const double dx = ground.x[i + 1] - ground.x[i], dy = ground.height[i + 1] - ground.height[i];
-    const double length = std::hypot(dx, dy);
-    if (!(length > 0.0)) continue;
+  std::array<double, 2> last_normal{};
+  std::int32_t last_line = 0;
+  for (const Piece& piece : pieces(ground)) {
     WallPoint<Dim> wall = level;
-    wall.normal[0] = -dy / length;
-    wall.normal[up] = dx / length;
-    if (std::abs(dy) <= dx) {
-      for_each_quarter(std::max(first_x, ground.x[i]), std::min(last_x, ground.x[i + 1]),
-                       grid.origin[0], grid.h, [&](double x) {
-                         std::array<double, Dim> at{};
-                         at[0] = x, at[up] = ground.height[i] + (x - ground.x[i]) * dy / dx;
-                         along(at, wall);
-                       });
+    const std::array<double, 2> normal = piece.normal();
+    wall.normal[0] = normal[0];
+    wall.normal[up] = normal[1];
+    if (!piece.steep()) {
+      const auto [first, last] =
+          place.lines(0, std::max(first_x, piece.x0), std::min(last_x, piece.x1));
+      for (std::int32_t k = first; k <= last; ++k) {
+        const bool again = k == last_line && normal == last_normal;  // where pieces meet
+        if (!again)
+          place.template add<Basis>(0, up, k,
+                                    in_cells(up, piece.height(grid.origin[0] + grid.h * k)),
+                                    piece.slope(), wall);
+        last_line = k;
+        last_normal = normal;
+      }
     } else {
-      const auto [bottom, top] = std::minmax(ground.height[i], ground.height[i + 1]);
-      for_each_quarter(std::max(low[up], bottom), std::min(high[up], top), grid.origin[up], grid.h,
-                       [&](double z) {
-                         std::array<double, Dim> at{};
-                         at[0] = ground.x[i] + (z - ground.height[i]) * dx / dy, at[up] = z;
-                         if (at[0] >= first_x && at[0] <= last_x) along(at, wall);
-                       });
+      const double slope = (piece.x1 - piece.x0) / (piece.y1 - piece.y0);
+      const auto [bottom, top] = std::minmax(piece.y0, piece.y1);
+      const auto [first, last] = place.lines(up, bottom, top);
+      for (std::int32_t k = first; k <= last; ++k) {
+        const double x = piece.x0 + (grid.origin[up] + grid.h * k - piece.y0) * slope;
+        if (x >= first_x && x <= last_x)
+          place.template add<Basis>(up, 0, k, in_cells(0, x), slope, wall);
+      }
     }
   }
-  add_level(std::max(first_x, ground.x.back()), last_x, ground.height.back());
 
   for (const auto& block : grid.blocks) {
     const auto middle = [&](int d) { return grid.origin[d] + grid.h * (block[d] + 0.5) * B; };
@@ -204,7 +238,9 @@ void place_walls(const Grid<Dim>& grid, const Ground& ground, const Rollers& rol
   c.inverse_mass.resize(c.nodes.size());
   c.mobility.resize(c.walls.size());
   c.fresh.resize(c.walls.size());
+  c.uses.resize(c.nodes.size());
   c.active.reserve(c.walls.size());
+  c.coupled.reserve(c.walls.size());
 }
 
 namespace {
@@ -219,9 +255,9 @@ void apply(Contact<Dim>& c, const WallPoint<Dim>& wall,
 }
 
 /// One wall point's turn: the impulse that stops the soil from entering it, within the friction
-/// cone. Returns the size of the velocity correction [m/s]; one below `least` is left undone.
+/// cone. Returns the size of the velocity correction [m/s].
 template <int Dim>
-double push(Contact<Dim>& c, std::int32_t p, bool slip, double least,
+double push(Contact<Dim>& c, std::int32_t p, bool slip,
             typename Contact<Dim>::Vector& held) noexcept {
   const WallPoint<Dim>& wall = c.walls[p];
   std::array<double, Dim> u{};
@@ -249,22 +285,23 @@ double push(Contact<Dim>& c, std::int32_t p, bool slip, double least,
     change[d] = keep * wanted[d] + allowed * wall.normal[d] - held[d];
     size = std::max(size, std::abs(change[d]) * c.mobility[p]);
   }
-  if (size > least) {
-    for (int d = 0; d < Dim; ++d) held[d] += change[d];
-    apply(c, wall, change);
-  }
+  for (int d = 0; d < Dim; ++d) held[d] += change[d];
+  apply(c, wall, change);
   return size;
 }
 
-/// Sweeps over the wall points until the corrections are small, from the impulses as they are.
+/// Impulses of all wall points that soil touches. A point that shares no node with another has its
+/// answer at once; the others are swept until the corrections are small, from the impulses as they
+/// are.
 template <int Dim>
-void sweep(const std::vector<Node>& nodes, Contact<Dim>& c, double full_mass, bool slip,
+void solve(const std::vector<Node>& nodes, Contact<Dim>& c, double full_mass, bool slip,
            std::vector<typename Contact<Dim>::Vector>& impulse) noexcept {
   using L = NodeLayout<Dim>;
   const double floor = kMassFloor * full_mass;
   for (std::size_t k = 0; k < c.nodes.size(); ++k) {
     const auto& q = nodes[c.nodes[k]].q;
     c.inverse_mass[k] = q[L::mass] > floor ? 1.0 / q[L::mass] : 0.0;
+    c.uses[k] = 0;
     for (int d = 0; d < Dim; ++d) c.velocity[k][d] = q[L::momentum + d];
   }
   c.active.clear();
@@ -278,21 +315,35 @@ void sweep(const std::vector<Node>& nodes, Contact<Dim>& c, double full_mass, bo
     c.mobility[p] = mobility;
     if (touched > 0.0) {
       c.active.push_back(static_cast<std::int32_t>(p));
-      apply(c, wall, impulse[p]);
+      for (std::int32_t e = wall.first; e < wall.last; ++e) ++c.uses[c.node[e]];
     } else {
       impulse[p] = {};
     }
   }
+  c.coupled.clear();
+  for (const std::int32_t p : c.active) {
+    const WallPoint<Dim>& wall = c.walls[p];
+    bool shares = false;
+    for (std::int32_t e = wall.first; e < wall.last; ++e)
+      shares = shares || (c.uses[c.node[e]] > 1 && c.inverse_mass[c.node[e]] > 0.0);
+    if (shares) {
+      c.coupled.push_back(p);
+      apply(c, wall, impulse[p]);
+    } else {
+      impulse[p] = {};
+      push(c, p, slip, impulse[p]);
+    }
+  }
+  const auto n = static_cast<std::int32_t>(c.coupled.size());
   double tolerance = 0.0;
   for (int count = 0; count < kMostSweeps; ++count) {
-    const auto n = static_cast<std::int32_t>(c.active.size());
     double largest = 0.0;
     for (std::int32_t i = 0; i < n; ++i) {
-      const std::int32_t p = c.active[count % 2 == 0 ? i : n - 1 - i];
-      largest = std::max(largest, push(c, p, slip, 0.1 * tolerance, impulse[p]));
+      const std::int32_t p = c.coupled[count % 2 == 0 ? i : n - 1 - i];
+      largest = std::max(largest, push(c, p, slip, impulse[p]));
     }
     if (count == 0)
-      for (const std::int32_t p : c.active)
+      for (const std::int32_t p : c.coupled)
         for (int d = 0; d < Dim; ++d)
           tolerance =
               std::max(tolerance, kSweepTolerance * c.mobility[p] * std::abs(impulse[p][d]));
@@ -306,7 +357,7 @@ template <int Dim>
 void push_out(const std::vector<Node>& nodes, Contact<Dim>& c, double full_mass,
               bool slip) noexcept {
   std::fill(c.fresh.begin(), c.fresh.end(), typename Contact<Dim>::Vector{});
-  sweep(nodes, c, full_mass, slip, c.fresh);
+  solve(nodes, c, full_mass, slip, c.fresh);
 }
 
 namespace {
@@ -343,7 +394,7 @@ GridWork<Dim> hold_at_walls(Grid<Dim>& grid, Contact<Dim>& c, const MomentumSett
   using L = NodeLayout<Dim>;
   GridWork<Dim> work;
   if (s.cundall > 0.0) take_back_damping(grid, c, s, kMassFloor * full_mass, work);
-  sweep(grid.nodes, c, full_mass, false, c.impulse);
+  solve(grid.nodes, c, full_mass, false, c.impulse);
   for (std::size_t k = 0; k < c.nodes.size(); ++k) {
     if (!(c.inverse_mass[k] > 0.0)) continue;
     auto& q = grid.nodes[c.nodes[k]].q;

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-/// Contact with the ground and walls: impulses at points of their surfaces, spread over the nodes
-/// by the shape functions, so that they act on the grid like tractions. docs/theory/contact.md
+/// Contact with the ground and walls: impulses where their surfaces cross the grid lines, spread
+/// over the nodes of the line as a pressure on the surface would be. docs/theory/contact.md
 namespace flowslide::mpm {
 
 /// A point of a wall. It acts on the contact nodes [first, last) of Contact::node and ::weight.
@@ -25,15 +25,17 @@ struct Contact {
   using Vector = std::array<double, Dim>;
   std::vector<WallPoint<Dim>> walls;
   std::vector<std::int32_t> node;   ///< per entry, into `nodes`
-  std::vector<double> weight;       ///< per entry: the node's shape function at the wall point
+  std::vector<double> weight;       ///< per entry: the node's share of the wall point's impulse
   std::vector<std::int32_t> nodes;  ///< contact nodes as indices into Grid::nodes, ascending
   // Buffers of a step.
   std::vector<Vector> velocity;      ///< per contact node [m/s]
   std::vector<double> inverse_mass;  ///< per contact node [1/kg]
   std::vector<double> mobility;      ///< per wall point: sum of weight^2 / mass [1/kg]
-  std::vector<Vector> impulse;  ///< per wall point, of the last step: the next one's guess [N s]
-  std::vector<Vector> fresh;    ///< the same where there is no guess
-  std::vector<std::int32_t> active;  ///< wall points that soil touches
+  std::vector<Vector> impulse;     ///< per wall point, of the last step: the next one's guess [N s]
+  std::vector<Vector> fresh;       ///< the same where there is no guess
+  std::vector<std::int32_t> uses;  ///< per contact node: entries of active wall points
+  std::vector<std::int32_t> active;   ///< wall points that soil touches
+  std::vector<std::int32_t> coupled;  ///< those of them that share nodes with others
 };
 
 /// Places wall points where the ground and the walls cross the lines of the grid and links them to

@@ -13,6 +13,9 @@ void check(const FlowConfig& c) {
   }
   validate(!c.left_roller || !c.right_roller || *c.left_roller < *c.right_roller,
            "left_roller is not left of right_roller (nothing lies between them) swap them");
+  validate(!c.side_rollers || (*c.side_rollers)[0] < (*c.side_rollers)[1],
+           "the first of side_rollers is not below the second (nothing lies between them) swap "
+           "them");
 }
 
 void Schema<SofteningSettings>::describe(FieldVisitor& v, SofteningSettings& c) {

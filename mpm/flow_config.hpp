@@ -36,6 +36,8 @@ struct FlowConfig {
   GroundSettings ground;
   std::optional<double> left_roller;   ///< x [m]
   std::optional<double> right_roller;  ///< x [m]
+  /// Rollers at two y [m] in three dimensions; not for workflows, which run plane strain.
+  std::optional<std::array<double, 2>> side_rollers;
   SofteningSettings softening;
   mpm::BasisKind basis = mpm::BasisKind::quadratic;
   mpm::Transfer transfer = mpm::Transfer::apic;

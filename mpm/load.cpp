@@ -83,6 +83,10 @@ Simulation<Dim> make_simulation(const ParticleSet& particles, const FlowConfig& 
   s.ground.friction = config.ground.friction;
   if (config.left_roller) s.rollers.left = *config.left_roller;
   if (config.right_roller) s.rollers.right = *config.right_roller;
+  if (config.side_rollers) {
+    s.rollers.near = (*config.side_rollers)[0];
+    s.rollers.far = (*config.side_rollers)[1];
+  }
 
   std::vector<StateSource> sources;
   for (const MaterialSpec& spec : particles.materials) {

@@ -12,6 +12,7 @@ std::vector<BenchCase> mpm_benchmarks() {
       {"mpm/3d/linear", "whole steps in three dimensions, hat functions", mpm::measure_linear<3>},
       {"mpm/3d/quadratic", "whole steps in three dimensions, quadratic splines",
        mpm::measure_quadratic<3>},
+      {"mpm/3d/valley", "the dam as a valley of 73 m, two million points", mpm::measure_valley},
       {"mpm/curve", "error against processor time of bases and transfers", mpm::work_precision},
   };
 }

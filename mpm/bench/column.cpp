@@ -1,5 +1,8 @@
 #include "mpm/bench/column.hpp"
 
+#include "mpm/basis.hpp"
+#include "mpm/local_grid.hpp"
+
 #include <cmath>
 #include <random>
 
@@ -82,11 +85,13 @@ template <int Dim>
 double bytes_per_update(const Simulation<Dim>& s, BenchLaw law) {
   const int states = law == BenchLaw::linear_elastic ? 0 : law == BenchLaw::mohr_coulomb ? 3 : 4;
   constexpr int x = Dim, v = Dim, c = Dim * Dim, sigma = kVoigt<Dim>, mass = 1, volume = 1;
-  const int to_grid = x + v + c + sigma + mass + volume;
-  const int loads = x + sigma + states + mass + volume;
+  const int loads = x + v + c + sigma + states + mass + volume;
   const int stores = x + v + c + sigma + states + volume;
-  const double nodes = double(s.grid.nodes.size()) / double(s.points.size());
-  return 8.0 * (to_grid + loads + stores) + 6.0 * sizeof(Node) * nodes;
+  const double windows = visit_basis(s.settings.basis, [&]<class Basis>(Basis) {
+    return double(s.tiling.tiles.size()) * kWindowNodes<Dim, Basis>;
+  });
+  const double nodes = double(s.grid.nodes.size());
+  return 8.0 * (loads + stores) + 2.0 * sizeof(Node) * (nodes + windows) / double(s.points.size());
 }
 
 template Simulation<2> bench_column<2>(int, BasisKind, BenchLaw);

@@ -12,8 +12,8 @@ std::string_view law_name(BenchLaw law);
 template <int Dim>
 Simulation<Dim> bench_column(int points_per_side, BasisKind basis, BenchLaw law);
 
-/// Bytes that a step with apic must load and store per point: the arrays of the points in two
-/// sweeps, and six passes over the nodes (clear, sum twice, balance twice, gather).
+/// Bytes that a step with apic must load and store per point: the arrays of the points once,
+/// windows written and read, nodes written and read.
 template <int Dim>
 double bytes_per_update(const Simulation<Dim>& s, BenchLaw law);
 

@@ -9,6 +9,10 @@ std::vector<Measurement> measure_quadratic();
 template <int Dim>
 std::vector<Measurement> measure_linear();
 
+/// Wall time of a step of the dam as a valley with two million points on all cores, and the memory
+/// it takes.
+std::vector<Measurement> measure_valley();
+
 /// Error against processor time: a moving, swinging bar, four cell sizes for each line of
 /// basis and transfer.
 std::vector<Measurement> work_precision();

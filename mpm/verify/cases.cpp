@@ -34,6 +34,8 @@ std::vector<VerificationCase> mpm_cases() {
        verify_prandtl},
       {"mpm/prandtl_mohr_coulomb", "the same on soil with friction", false, verify_prandtl_mc},
       {"mpm/griffiths_lane", "factor of safety of a 2:1 slope", false, verify_slope},
+      {"mpm/valley", "the dam in three dimensions between smooth walls, against plane strain",
+       false, verify_valley},
       {"mpm/hard_crossing", "stress of a body that crosses cells", false, verify_crossing},
       {"mpm/hard_ringing", "point modes the grid cannot see, and a million steps", false,
        verify_ringing},

@@ -22,6 +22,7 @@ std::vector<Check> verify_wave(std::string_view name);
 std::vector<Check> verify_vortex(std::string_view name);
 std::vector<Check> verify_infinite_slope(std::string_view name);
 std::vector<Check> verify_sheet_flow(std::string_view name);
+std::vector<Check> verify_valley(std::string_view name);
 std::vector<Check> verify_crossing(std::string_view name);
 std::vector<Check> verify_ringing(std::string_view name);
 std::vector<Check> verify_sparse(std::string_view name);
