@@ -17,6 +17,18 @@ using Lanes = std::conditional_t < requires {
 }
 , double, Pack > ;
 
+/// True in the first n lanes: those beyond repeat a point and must not be counted twice.
+template <class T>
+auto counted_lanes(int n) noexcept {
+  if constexpr (std::is_same_v<T, Pack>) {
+    Pack lane;
+    for (int i = 0; i < Pack::lanes; ++i) lane.v[i] = i;
+    return lane < Pack(double(n));
+  } else {
+    return n > 0;
+  }
+}
+
 template <int Dim, class M>
 [[gnu::flatten]] StressWork update_run(Points<Dim>& p, const Tile<Dim>& tile,
                                        const MaterialRun& run, const SolverMaterial& material,
@@ -27,7 +39,7 @@ template <int Dim, class M>
   constexpr int V = kVoigt<Dim>, S = static_cast<int>(M::state_names.size());
   constexpr int width = std::is_same_v<T, Pack> ? Pack::lanes : 1;
   StressWork work;
-  T wave2 = 0.0, speed2 = 0.0, strain2 = 0.0;
+  T wave2 = 0.0, speed2 = 0.0, strain2 = 0.0, power_start = 0.0, power_end = 0.0;
   for (std::int32_t q = run.first; q < run.last; q += width) {
     const int n = std::min<int>(width, run.last - q);
     const std::int32_t k = q - tile.first;
@@ -88,9 +100,12 @@ template <int Dim, class M>
     for (int i = 0; i < Dim * Dim; ++i) l2 += l[i] * l[i];
     speed2 = max(speed2, v2);
     strain2 = max(strain2, l2);
-    work.power_start += sum_lanes(volume * work_start, n);
-    work.power_end += sum_lanes(new_volume * work_end, n);
+    const auto counted = counted_lanes<T>(n);
+    power_start += select(counted, volume * work_start, T(0.0));
+    power_end += select(counted, new_volume * work_end, T(0.0));
   }
+  work.power_start = sum_lanes(power_start, width);
+  work.power_end = sum_lanes(power_end, width);
   work.max_wave2 = max_lanes(wave2);
   work.max_speed2 = max_lanes(speed2);
   work.max_strain = std::sqrt(max_lanes(strain2)) * dt;
