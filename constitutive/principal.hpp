@@ -66,66 +66,55 @@ template <class Map>
   return out;
 }
 
-/// The same for the lanes of a Pack: cyclic Jacobi without branches in the lanes. Three
-/// sweeps reach round-off for most matrices, five for all.
+/// The same for the lanes of a Pack, without iteration over rotations (docs/theory/mohr-coulomb.md,
+/// principal axes): the principal stress farthest from the mean is well separated from the others,
+/// so its direction n is accurate; in the plane across n the rest is Mohr's circle.
 template <class Map>
 [[nodiscard]] Stress<3, Pack> map_principal(const Stress<3, Pack>& s, Map&& map) noexcept {
-  Pack a[3][3] = {{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}};
-  Pack v[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};  // eigenvectors in rows
-  const auto turn = [&](int p, int q) __attribute__((always_inline)) {
-    const int r = 3 - p - q;
-    // From the double angle; the tiny numbers make it zero where all is zero.
-    const Pack gap = a[q][q] - a[p][p], twice = 2.0 * a[p][q];
-    const Pack inverse = inverse_sqrt(gap * gap + twice * twice + 1e-280);
-    const auto negative = gap < Pack(0.0);
-    const Pack cosine = (select(negative, -gap, gap) + 1e-140) * inverse;
-    const Pack sine = select(negative, -twice, twice) * inverse;
-    const Pack square = 0.5 + 0.5 * cosine, secant = inverse_sqrt(square);
-    const Pack c = square * secant, sn = 0.5 * sine * secant, t = sn * secant;
-    const Pack shift = t * a[p][q];
-    a[p][p] -= shift;
-    a[q][q] += shift;
-    a[p][q] = a[q][p] = 0.0;
-    const Pack x = a[p][r], y = a[q][r];
-    a[p][r] = a[r][p] = c * x - sn * y;
-    a[q][r] = a[r][q] = sn * x + c * y;
-    for (int k = 0; k < 3; ++k) {
-      const Pack vp = v[p][k], vq = v[q][k];
-      v[p][k] = c * vp - sn * vq;
-      v[q][k] = sn * vp + c * vq;
-    }
+  // Deviator over sqrt(J2 / 3): principal values y with y^3 - 3 y = 2 c, c = cos(3 theta).
+  const Pack p = mean_stress(s), scale = inverse_sqrt(j2(s) * (1.0 / 3.0) + 1e-280);
+  const Pack xx = (s[0] - p) * scale, yy = (s[1] - p) * scale, zz = (s[2] - p) * scale;
+  const Pack xy = s[3] * scale, yz = s[4] * scale, zx = s[5] * scale;
+  const Pack c =
+      0.5 * (xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * zx) + zx * (xy * yz - yy * zx));
+  const auto negative = c < Pack(0.0);
+  const Pack twice = min(Pack(2.0), 2.0 * select(negative, -c, c));
+  Pack y = 1.7320508075688772 + 0.13397459621556132 * twice;  // the chord; Newton does the rest
+  for (int i = 0; i < 3; ++i) y -= (y * (y * y - 3.0) - twice) / (3.0 * (y * y - 1.0));
+  const Pack far = select(negative, -y, y);
+
+  // The adjugate of deviator - far is n n^T times a number between 6 and 9.
+  const Pack a = xx - far, b = yy - far, d = zz - far;
+  const Pack a00 = b * d - yz * yz, a11 = a * d - zx * zx, a22 = a * b - xy * xy;
+  const Pack a01 = zx * yz - xy * d, a02 = xy * yz - zx * b, a12 = xy * zx - yz * a;
+  const auto first = a00 >= a11 && a00 >= a22, second = a11 >= a22;
+  Pack n[3] = {select(first, a00, select(second, a01, a02)),
+               select(first, a01, select(second, a11, a12)),
+               select(first, a02, select(second, a12, a22))};
+  const Pack length = inverse_sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  for (Pack& x : n) x *= length;
+
+  // Two directions across n (Duff et al. 2017), and the stress in these axes.
+  const Pack sign = select(n[2] < Pack(0.0), Pack(-1.0), Pack(1.0));
+  const Pack k = -1.0 / (sign + n[2]), m = n[0] * n[1] * k;
+  const Pack u[3] = {1.0 + sign * n[0] * n[0] * k, sign * m, -sign * n[0]};
+  const Pack v[3] = {m, sign + n[1] * n[1] * k, -n[1]};
+  const auto product = [&](const Pack(&e)[3], const Pack(&f)[3]) {
+    return e[0] * (s[0] * f[0] + s[3] * f[1] + s[5] * f[2]) +
+           e[1] * (s[3] * f[0] + s[1] * f[1] + s[4] * f[2]) +
+           e[2] * (s[5] * f[0] + s[4] * f[1] + s[2] * f[2]);
   };
-  const auto diagonal = [&]() __attribute__((always_inline)) {
-    const Pack off = a[0][1] * a[0][1] + a[0][2] * a[0][2] + a[1][2] * a[1][2];
-    const Pack on = a[0][0] * a[0][0] + a[1][1] * a[1][1] + a[2][2] * a[2][2];
-    return all(off <= 1e-31 * on);
-  };
-  for (int sweep = 0; sweep < 5; ++sweep) {
-    if (sweep > 1 && diagonal()) break;
-    turn(0, 1);
-    turn(0, 2);
-    turn(1, 2);
-  }
-  const auto order = [&](int i, int j) __attribute__((always_inline)) {
-    const auto swap = a[i][i] < a[j][j];
-    const Pack hi = select(swap, a[j][j], a[i][i]), lo = select(swap, a[i][i], a[j][j]);
-    a[i][i] = hi;
-    a[j][j] = lo;
-    for (int k = 0; k < 3; ++k) {
-      const Pack first = select(swap, v[j][k], v[i][k]), second = select(swap, v[i][k], v[j][k]);
-      v[i][k] = first;
-      v[j][k] = second;
-    }
-  };
-  order(0, 1);
-  order(1, 2);
-  order(0, 1);
-  const Sorted3<Pack> r = map(Sorted3<Pack>{a[0][0], a[1][1], a[2][2]});
-  const Pack mapped[3] = {r.hi, r.mid, r.lo};
+  Stress<2, Pack> turned;
+  turned[0] = product(u, u), turned[1] = product(v, v);
+  turned[2] = product(n, n), turned[3] = product(u, v);
+  const Stress<2, Pack> mapped = map_principal(turned, map);
   Stress<3, Pack> out;
   constexpr int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
-  for (int k = 0; k < 6; ++k)
-    for (int i = 0; i < 3; ++i) out[k] += mapped[i] * (v[i][row[k]] * v[i][column[k]]);
+  for (int i = 0; i < 6; ++i) {
+    const int r = row[i], q = column[i];
+    out[i] = mapped[0] * u[r] * u[q] + mapped[1] * v[r] * v[q] + mapped[2] * n[r] * n[q] +
+             mapped[3] * (u[r] * v[q] + v[r] * u[q]);
+  }
   return out;
 }
 
