@@ -22,6 +22,10 @@ struct Schema<PointStress> {
     v.quantity("vertical", c.vertical, Dim::stress, {.above = 0.0}, "vertical stress");
     v.quantity("k0", c.k0, Dim::none, {.min = 0.0, .max = 10.0}, "horizontal over vertical");
     v.quantity("shear", c.shear, Dim::stress, {}, "shear stress at the start");
+    v.flag(
+        "compacts", c.compacts,
+        "the elastic strain of the consolidation lowers the void ratio of pm4sand, as in OpenSees "
+        "and with gravity.compacts in fem.run; off: Dr is that of the consolidated soil");
   }
 };
 
@@ -116,6 +120,15 @@ void check(const PointConfig& config) {
     (void)PM4Sand::constants(*m.pm4sand);
   else
     (void)make_material(m.laws, "material");
+  validate(
+      !config.stress.compacts || m.pm4sand,
+      "stress.compacts with a law other than pm4sand (it has no void ratio to lower). Leave it "
+      "out");
+  validate(
+      !config.stress.compacts || config.stress.k0 < 1.0,
+      "stress.compacts with k0 = {} (elastic soil without lateral strain stays below 1). Leave "
+      "it out, or give a smaller k0",
+      config.stress.k0);
   validate(config.simple_shear.has_value() != !config.path.empty(),
            "{} (exactly one says what to do)",
            config.simple_shear ? "both simple_shear and path are given. Leave one out"

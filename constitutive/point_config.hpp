@@ -20,7 +20,8 @@ struct PointMaterial {
 struct PointStress {
   double vertical = kUnset;  ///< sigma'_v [Pa]
   double k0 = 0.5;
-  double shear = 0.0;  ///< tau [Pa]
+  double shear = 0.0;     ///< tau [Pa]
+  bool compacts = false;  ///< consolidation lowers the void ratio (PM4Sand)
 };
 
 /// Direct simple shear; with none of the three reversals it is monotonic.

@@ -9,6 +9,13 @@
 namespace flowslide {
 namespace {
 
+/// Volumetric strain, compression positive, of elastic consolidation without lateral strain, as in
+/// the gravity stage of OpenSees and of fem.run.
+double consolidation_strain(const PM4Sand::Params& p, const PointStress& s) {
+  const Elasticity e = PM4Sand::gravity_elasticity(p, s.k0 / (1.0 + s.k0));
+  return s.vertical / (e.bulk + 4.0 / 3.0 * e.shear);
+}
+
 PointUnderTest point_of(const PointConfig& config, std::string& law) {
   const PointStress& s = config.stress;
   const double lateral = -s.k0 * s.vertical;
@@ -17,7 +24,9 @@ PointUnderTest point_of(const PointConfig& config, std::string& law) {
     law = PM4Sand::name;
     const PM4Sand::Constants c = PM4Sand::constants(*config.material.pm4sand);
     return make_point(
-        sigma, PM4Sand::initial_state(c, sigma),
+        sigma,
+        PM4Sand::initial_state(
+            c, sigma, s.compacts ? consolidation_strain(*config.material.pm4sand, s) : 0.0),
         [c](const Stress<2>& stress, const PM4Sand::State& state, const StrainIncrement<2>& de) {
           return PM4Sand::update(c, state, stress, de);
         },

@@ -13,7 +13,8 @@ namespace {
 
 PointConfig elastic() {
   PointConfig c;
-  c.material.laws.of<LinearElastic>() = LinearElastic::Params{.youngs_modulus = 26e6, .poisson_ratio = 0.3};
+  c.material.laws.of<LinearElastic>() =
+      LinearElastic::Params{.youngs_modulus = 26e6, .poisson_ratio = 0.3};
   c.stress.vertical = 100e3;
   return c;
 }
@@ -37,6 +38,31 @@ TEST_CASE("a path of strains and stresses is followed", "[point]") {
   CHECK(r.rows[10].sigma_xx == Approx(-50e3 - 50e3 * 0.3 / 0.7));
   CHECK(r.rows[15].tau == Approx(1e-4 * 10e6));
   CHECK(r.rows[5].sigma_yy == Approx(-125e3));
+}
+
+TEST_CASE("a point that compacts has the strengths of OpenSees", "[point]") {
+  // tau at 10 % strain [kPa], default emax and emin; without the consolidation strain 5.83 at 100.
+  const auto [vertical, compacts, strength] = GENERATE(table<double, bool, double>(
+      {{50e3, true, 4.38}, {100e3, true, 6.30}, {250e3, true, 11.64}, {100e3, false, 5.83}}));
+  PointConfig c;
+  c.material.pm4sand =
+      PM4Sand::Params{.Dr = 0.35, .G0 = 476.0, .hpo = 2.70, .Q = 11.998, .R = 3.75};
+  c.stress.vertical = vertical;
+  c.stress.compacts = compacts;
+  c.simple_shear = PointShear{.stop_strain = 0.1, .strain_step = 2e-5};
+  CHECK(run_point(c).rows.back().tau == Approx(1e3 * strength).epsilon(0.02));
+}
+
+TEST_CASE("only soil with a void ratio compacts", "[point]") {
+  PointConfig c = elastic();
+  c.simple_shear.emplace();
+  c.stress.compacts = true;
+  CHECK_THROWS_WITH(run_point(c), Contains("pm4sand"));
+  c = {};
+  c.material.pm4sand = PM4Sand::Params{.Dr = 0.35, .G0 = 476.0, .hpo = 2.70};
+  c.stress = {.vertical = 100e3, .k0 = 1.0, .compacts = true};
+  c.simple_shear.emplace();
+  CHECK_THROWS_WITH(run_point(c), Contains("k0 = 1"));
 }
 
 TEST_CASE("PM4Sand liquefies in cyclic simple shear from settings", "[point]") {
