@@ -1,5 +1,6 @@
 #include "cli/case_list.hpp"
 
+#include "fem/bench/cases.hpp"
 #include "fem/verify/cases.hpp"
 #include "mpm/bench/cases.hpp"
 #include "mpm/verify/cases.hpp"
@@ -23,6 +24,11 @@ std::vector<VerificationCase> all_verification_cases() {
   return cases;
 }
 
-std::vector<BenchCase> all_benchmarks() { return mpm_benchmarks(); }
+std::vector<BenchCase> all_benchmarks() {
+  std::vector<BenchCase> cases;
+  append(cases, fem_benchmarks());
+  append(cases, mpm_benchmarks());
+  return cases;
+}
 
 }  // namespace flowslide::cli

@@ -1,11 +1,18 @@
 #include "core/benchmark.hpp"
 
 #include <algorithm>
+#include <ctime>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace flowslide {
+
+double thread_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+}
 
 std::vector<BenchCase> select(std::span<const BenchCase> cases,
                               std::span<const std::string> names) {

@@ -27,6 +27,9 @@ struct BenchCase {
   std::vector<Measurement> (*run)();
 };
 
+/// Processor time of the calling thread [s]: what other programs take does not count.
+double thread_seconds();
+
 /// The cases that a list of names asks for: each name is the beginning of a case's name, or a
 /// longer name that begins with it; no names ask for all. Throws InputError for a name that fits
 /// nothing.

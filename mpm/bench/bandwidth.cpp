@@ -1,16 +1,11 @@
 #include "mpm/bench/bandwidth.hpp"
 
+#include "core/benchmark.hpp"
+
 #include <algorithm>
-#include <ctime>
 #include <vector>
 
 namespace flowslide::mpm {
-
-double thread_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
-}
 
 double triad_bandwidth(std::size_t bytes) {
   const std::size_t n = std::max<std::size_t>(bytes / (3 * sizeof(double)), 1024);

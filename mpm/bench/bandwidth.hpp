@@ -3,9 +3,6 @@
 
 namespace flowslide::mpm {
 
-/// Processor time of the calling thread [s]: what other programs take does not count.
-double thread_seconds();
-
 /// Memory bandwidth of one core by the triad a = b + s c on arrays of `bytes` in all, counted as
 /// two loads and a store; the best of several passes [B/s].
 double triad_bandwidth(std::size_t bytes);

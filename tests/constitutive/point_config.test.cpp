@@ -19,6 +19,20 @@ PointConfig elastic() {
   return c;
 }
 
+/// Of the Mochikoshi dam, sheared at 100 kPa.
+PointConfig tailings() {
+  PointConfig c;
+  c.material.pm4sand = PM4Sand::Params{};
+  c.material.pm4sand->Dr = 0.35;
+  c.material.pm4sand->G0 = 476.0;
+  c.material.pm4sand->hpo = 2.70;
+  c.material.pm4sand->Q = 11.998;
+  c.material.pm4sand->R = 3.75;
+  c.stress.vertical = 100e3;
+  c.simple_shear.emplace();
+  return c;
+}
+
 std::string fact(const PointReport& report, const std::string& name) {
   for (const auto& [key, text] : report.facts)
     if (key == name) return text;
@@ -44,12 +58,11 @@ TEST_CASE("a point that compacts has the strengths of OpenSees", "[point]") {
   // tau at 10 % strain [kPa], default emax and emin; without the consolidation strain 5.83 at 100.
   const auto [vertical, compacts, strength] = GENERATE(table<double, bool, double>(
       {{50e3, true, 4.38}, {100e3, true, 6.30}, {250e3, true, 11.64}, {100e3, false, 5.83}}));
-  PointConfig c;
-  c.material.pm4sand =
-      PM4Sand::Params{.Dr = 0.35, .G0 = 476.0, .hpo = 2.70, .Q = 11.998, .R = 3.75};
+  PointConfig c = tailings();
   c.stress.vertical = vertical;
   c.stress.compacts = compacts;
-  c.simple_shear = PointShear{.stop_strain = 0.1, .strain_step = 2e-5};
+  c.simple_shear->stop_strain = 0.1;
+  c.simple_shear->strain_step = 2e-5;
   CHECK(run_point(c).rows.back().tau == Approx(1e3 * strength).epsilon(0.02));
 }
 
@@ -58,23 +71,15 @@ TEST_CASE("only soil with a void ratio compacts", "[point]") {
   c.simple_shear.emplace();
   c.stress.compacts = true;
   CHECK_THROWS_WITH(run_point(c), Contains("pm4sand"));
-  c = {};
-  c.material.pm4sand = PM4Sand::Params{.Dr = 0.35, .G0 = 476.0, .hpo = 2.70};
-  c.stress = {.vertical = 100e3, .k0 = 1.0, .compacts = true};
-  c.simple_shear.emplace();
+  c = tailings();
+  c.stress.k0 = 1.0;
+  c.stress.compacts = true;
   CHECK_THROWS_WITH(run_point(c), Contains("k0 = 1"));
 }
 
 TEST_CASE("PM4Sand liquefies in cyclic simple shear from settings", "[point]") {
-  PointConfig c;
-  c.material.pm4sand = PM4Sand::Params{};
-  c.material.pm4sand->Dr = 0.35;
-  c.material.pm4sand->G0 = 476.0;
-  c.material.pm4sand->hpo = 2.70;
-  c.material.pm4sand->Q = 11.998;
-  c.material.pm4sand->R = 3.75;
+  PointConfig c = tailings();
   c.stress.vertical = 101.3e3;
-  c.simple_shear.emplace();
   c.simple_shear->csr = 0.09;
   c.simple_shear->strain_step = 2e-5;
   const PointReport r = run_point(c);
