@@ -123,6 +123,9 @@ void Schema<FemConfig>::describe(FieldVisitor& v, FemConfig& c) {
   v.group("damping", c.damping, Schema<FemDampingConfig>::doc);
   v.group("stabilisation", c.stabilisation, Schema<StabilisationConfig>::doc);
   v.quantity("end", c.end, Dim::time, {.above = 0.0}, "end of the run; left out: of the motion");
+  v.quantity("stop_displacement", c.stop_displacement, Dim::length, {.above = 0.0},
+             "the run ends early, at the first recorded state in which a node has moved this far "
+             "against the base: the section flows, and small displacements are assumed here");
   v.quantity("output_interval", c.output_interval, Dim::time, {.above = 0.0},
              "time between recorded states");
   v.quantity("courant", c.courant, Dim::none, {.max = 1.0, .above = 0.0},

@@ -76,8 +76,9 @@ struct FemConfig {
   FemSideConfig sides;
   FemDampingConfig damping;
   StabilisationConfig stabilisation;
-  std::optional<double> end;      ///< [s]; the duration of the motion if left out
-  double output_interval = 0.25;  ///< [s]
+  std::optional<double> end;                ///< [s]; the duration of the motion if left out
+  std::optional<double> stop_displacement;  ///< against the base [m]
+  double output_interval = 0.25;            ///< [s]
   double courant = 0.5;
 };
 

@@ -83,6 +83,18 @@ void fill(FemFrame& frame, const Solver& s, std::size_t nodes, std::size_t eleme
   }
 }
 
+/// Of the nodes against the mean of those at the base [m].
+double largest_displacement(const FemFrame& frame, const std::vector<std::int32_t>& base) {
+  Vec2 ground{};
+  for (const std::int32_t i : base)
+    for (int d = 0; d < 2; ++d)
+      ground[d] += frame.displacement[i][d] / static_cast<double>(base.size());
+  double largest = 0.0;
+  for (const Vec2& u : frame.displacement)
+    largest = std::max(largest, std::hypot(u[0] - ground[0], u[1] - ground[1]));
+  return largest;
+}
+
 /// Keeps the step below the stable one and makes steps end at the times of output.
 class StepControl {
  public:
@@ -135,7 +147,8 @@ FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const F
   facts.smallest_step = end;
 
   const auto start = std::chrono::steady_clock::now();
-  for (std::int64_t output = 1; s.state.time < end * (1.0 - 1e-9); ++output) {
+  const std::vector<std::int32_t> base = nodes_of(find_set(section, "base"));
+  for (std::int64_t output = 1; s.state.time < end * (1.0 - 1e-9) && !facts.stopped; ++output) {
     const double target = std::min(end, static_cast<double>(output) * config.output_interval);
     int since = kModuliInterval;
     while (target - s.state.time > 1e-9 * config.output_interval) {
@@ -153,6 +166,9 @@ FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const F
     s.state.time = target;
     fill(frame, s, nodes, elements);
     writer.append(frame);
+    facts.largest_displacement = largest_displacement(frame, base);
+    facts.stopped =
+        config.stop_displacement && facts.largest_displacement >= *config.stop_displacement;
     progress.report(target / end, fmt::format("{:.2f} s, step {:.3g} s", target, s.dt));
   }
   writer.finish();

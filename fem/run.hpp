@@ -11,7 +11,9 @@
 namespace flowslide {
 
 struct FemFacts {
-  double end_time = 0.0;  ///< [s]
+  double end_time = 0.0;              ///< [s]
+  double largest_displacement = 0.0;  ///< of a node of the section against the base, at the end [m]
+  bool stopped = false;               ///< by stop_displacement
   std::int64_t steps = 0;
   double smallest_step = 0.0, largest_step = 0.0;  ///< [s]
   double out_of_balance = 0.0;                     ///< before shaking, over the largest weight

@@ -1,5 +1,5 @@
-#include "model/history.hpp"
 #include "fem/verify/scene.hpp"
+#include "model/history.hpp"
 #include "tests/support/scratch.hpp"
 
 #include <catch2/catch.hpp>
@@ -50,6 +50,30 @@ TEST_CASE("Free-field columns are not in the history", "[fem]") {
   const FemHistory h(folder / "history.h5");
   CHECK(h.mesh().num_nodes() == s.mesh.num_nodes());
   CHECK(h.times().back() == Approx(0.05));
+}
+
+TEST_CASE("A run ends where the section has moved too far, if asked", "[fem]") {
+  // A column of sand on a base that jerks: the top lags behind the ground.
+  const SectionMesh s = section({.columns = 2, .rows = 4});
+  FemConfig c = config(sand(), 4.0);
+  c.output_interval = 0.05;
+  const Scratch folder;
+  const FemFacts whole = run_fem(s, sine(3.0, 0.5), c, folder / "whole.h5", 1, {});
+  CHECK_FALSE(whole.stopped);
+  CHECK(whole.end_time == Approx(0.5));
+  const double limit = 0.5 * whole.largest_displacement;
+  REQUIRE(limit > 0.0);
+  c.stop_displacement = limit;
+  const FemFacts part = run_fem(s, sine(3.0, 0.5), c, folder / "part.h5", 1, {});
+  CHECK(part.stopped);
+  CHECK(part.end_time < 0.5);
+  CHECK(part.largest_displacement >= limit);
+  // It is the same run up to there.
+  const FemHistory a(folder / "whole.h5"), b(folder / "part.h5");
+  REQUIRE(b.times().size() < a.times().size());
+  const auto last = static_cast<int>(b.times().size()) - 1;
+  CHECK(b.times().back() == Approx(part.end_time));
+  CHECK(a.frame(last).displacement == b.frame(last).displacement);
 }
 
 TEST_CASE("A stop request ends the run without a history", "[fem]") {

@@ -33,6 +33,8 @@ struct FemRun {
     const FemFacts f = run_fem(read_section_mesh(in.mesh.path), read_motion_file(in.motion.path),
                                config, out.history.path, context.threads, context.progress);
     const nlohmann::ordered_json facts = {{"fem_end_s", f.end_time},
+                                          {"fem_stopped_by_displacement", f.stopped},
+                                          {"fem_largest_displacement_m", f.largest_displacement},
                                           {"fem_steps", f.steps},
                                           {"fem_smallest_step_s", f.smallest_step},
                                           {"fem_largest_step_s", f.largest_step},
