@@ -1,6 +1,6 @@
 """Writes the tables of docs/performance.md and docs/images/work-precision.png from measurements.
 
-    flowslide bench mpm --json > docs/performance.json
+    flowslide bench --json > docs/performance.json
     python3 docs/performance.py
 
 Needs Matplotlib. Text outside the marked tables is left alone.
@@ -32,6 +32,37 @@ def speed_table(rows):
             f"| {TARGETS[f'{dim}/{basis}']} | {r['ns_per_update']:.0f} "
             f"| {r['bytes_per_update']:.0f} | {r['triad_gb_per_s']:.1f} "
             f"| {r['roofline_percent']:.0f} |"
+        )
+    return "\n".join(lines)
+
+
+def pm4sand_table(rows):
+    lines = [
+        "| `max_strain_increment` | `tolerance` | stress error | sub-steps per call "
+        "| rejected, % | M sub-steps/s/core | ns per call |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    for r in rows:
+        lines.append(
+            f"| {r['max_strain_increment']:g} | {r['tolerance']:g} | {r['stress_error']:.1g} "
+            f"| {r['sub_steps_per_call']:.2f} | {r['rejected_percent']:.0f} "
+            f"| {r['value']:.2f} | {r['ns_per_call']:.0f} |"
+        )
+    return "\n".join(lines)
+
+
+def step_table(rows):
+    lines = [
+        "| soil | elements | M elements/s/core | ns per element | sub-steps per element "
+        "| step, ms |",
+        "|---|---|---|---|---|---|",
+    ]
+    for r in rows:
+        _, _, soil, elements = r["name"].split("/")
+        lines.append(
+            f"| {soil.replace('_', ' ')} | {int(elements):,} | {r['value']:.1f} "
+            f"| {r['ns_per_element']:.0f} | {r['sub_steps_per_element']:.2f} "
+            f"| {1e3 * r['step_s']:.2f} |"
         )
     return "\n".join(lines)
 
@@ -80,9 +111,10 @@ def replace(text, mark, table):
 
 def main():
     measurements = json.loads((DOCS / "performance.json").read_text())
-    speed = [m for m in measurements if not m["name"].startswith("mpm/curve/")]
+    mpm = [m for m in measurements if m["name"].startswith("mpm/")]
+    speed = [m for m in mpm if not m["name"].startswith("mpm/curve/")]
     curves = {}
-    for m in measurements:
+    for m in mpm:
         if m["name"].startswith("mpm/curve/"):
             _, _, basis, transfer, _ = m["name"].split("/")
             curves.setdefault(f"{basis}/{transfer}", []).append(m)
@@ -98,6 +130,10 @@ def main():
     if curves:
         text = replace(text, "curves", curve_table(curves))
         draw(curves, DOCS / "images" / "work-precision.png")
+    for mark, table in (("pm4sand", pm4sand_table), ("step", step_table)):
+        rows = [m for m in measurements if m["name"].startswith(f"fem/{mark}/")]
+        if rows:
+            text = replace(text, f"fem {mark}", table(rows))
     page.write_text(text)
 
 

@@ -176,7 +176,9 @@ TEST_CASE("verification cases and benchmarks are listed and chosen by name", "[c
   CHECK(run.code == 0);
   CHECK_THAT(run.out,
              Contains("\"name\": \"mpm/v1_mirror/error_40_cells\"") && Contains("core_seconds"));
-  CHECK(call(scratch, "bench --list").code == 0);
+  const Outcome benchmarks = call(scratch, "bench fem --list");
+  CHECK(benchmarks.code == 0);
+  CHECK_THAT(benchmarks.out, Contains("fem/pm4sand") && Contains("fem/step") && !Contains("mpm/"));
   CHECK(call(scratch, "bench no_such").code == 2);
 }
 
