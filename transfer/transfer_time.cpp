@@ -64,6 +64,16 @@ TransferChoice automatic(const AutomaticTransfer& rule, const ZoneHistory& h,
                                            : std::string();
   const std::optional<EnergyOnset> onset = find_onset(rule, h, base_energy);
   if (!onset || onset->sample >= usable) {
+    const std::optional<EnergyOnset> rising = rising_at_end(rule, h, base_energy);
+    if (usable == n && rising) {
+      return at_sample(
+          h, n - 1,
+          fmt::format(
+              "the kinetic energy exceeds {:g} times its pre-failure envelope from {:.4g} s "
+              "to the end of the record, too short a time to call it failure, so the end of "
+              "the record is taken",
+              rule.growth, h.time[rising->sample]));
+    }
     if (usable == n) {
       return at_sample(
           h, n - 1,
@@ -126,44 +136,71 @@ std::vector<double> trailing_mean(std::span<const double> time, std::span<const 
   return mean;
 }
 
-std::optional<EnergyOnset> find_onset(const AutomaticTransfer& rule, const ZoneHistory& h,
-                                      std::span<const double> base_energy) {
+namespace {
+
+/// Trailing means of the energy and its pre-failure envelope, from the first liquefaction on.
+struct EnergyLevels {
+  std::vector<double> energy, envelope;
+  std::size_t liquefied = 0;  ///< number of samples if nothing has
+};
+
+EnergyLevels energy_levels(const AutomaticTransfer& rule, const ZoneHistory& h,
+                           std::span<const double> base_energy) {
   const std::size_t n = h.time.size();
   FLOWSLIDE_EXPECT(base_energy.size() == n);
-  const std::vector<double> energy = trailing_mean(
+  EnergyLevels r;
+  r.energy = trailing_mean(
       h.time, rule.energy == EnergyFrame::relative ? h.kinetic_energy_relative : h.kinetic_energy,
       rule.smoothing);
   std::vector<double> base = trailing_mean(h.time, base_energy, rule.smoothing);
   for (std::size_t i = 1; i < n; ++i) base[i] = std::max(base[i], base[i - 1]);
 
-  std::size_t liquefied = n;
+  r.liquefied = n;
   for (const std::vector<double>& depth : h.depth) {
     const auto first = std::ranges::find_if(depth, [](double d) { return d > 0.0; });
-    liquefied = std::min(liquefied, static_cast<std::size_t>(first - depth.begin()));
+    r.liquefied = std::min(r.liquefied, static_cast<std::size_t>(first - depth.begin()));
   }
-  if (liquefied == n) return std::nullopt;
+  if (r.liquefied == n) return r;
 
   // Ratios of two energies that are both near zero say nothing.
-  const double significant = liquefied > 0 ? 0.1 * base[liquefied - 1] : 0.0;
+  const double significant = r.liquefied > 0 ? 0.1 * base[r.liquefied - 1] : 0.0;
   double largest = 0.0;
   double ratio = 0.0;
-  for (std::size_t i = 0; i < liquefied; ++i) {
-    largest = std::max(largest, energy[i]);
-    if (base[i] > 0.0 && base[i] >= significant) ratio = std::max(ratio, energy[i] / base[i]);
+  for (std::size_t i = 0; i < r.liquefied; ++i) {
+    largest = std::max(largest, r.energy[i]);
+    if (base[i] > 0.0 && base[i] >= significant) ratio = std::max(ratio, r.energy[i] / base[i]);
   }
-  const auto envelope = [&base, largest, ratio](std::size_t i) {
-    return std::max(largest, ratio * base[i]);
-  };
+  for (const double b : base) r.envelope.push_back(std::max(largest, ratio * b));
+  return r;
+}
+
+}  // namespace
+
+std::optional<EnergyOnset> find_onset(const AutomaticTransfer& rule, const ZoneHistory& h,
+                                      std::span<const double> base_energy) {
+  const std::size_t n = h.time.size();
+  const EnergyLevels x = energy_levels(rule, h, base_energy);
   // The mean drags a burst out by its own length.
   const double hold = rule.smoothing + rule.sustain;
-  for (std::size_t i = liquefied; i < n; ++i) {
+  const auto above = [&](std::size_t i) { return x.energy[i] > rule.growth * x.envelope[i]; };
+  for (std::size_t i = x.liquefied; i < n; ++i) {
     if (h.time[i] + hold > h.time[n - 1]) break;
     std::size_t k = i;
-    while (k < n && energy[k] > rule.growth * envelope(k) && h.time[k] < h.time[i] + hold) ++k;
-    const bool stayed = k < n && energy[k] > rule.growth * envelope(k);
-    if (stayed && energy[k] > energy[i]) return EnergyOnset{i, energy[i], envelope(i)};
+    while (k < n && above(k) && h.time[k] < h.time[i] + hold) ++k;
+    if (k < n && above(k) && x.energy[k] > x.energy[i])
+      return EnergyOnset{i, x.energy[i], x.envelope[i]};
   }
   return std::nullopt;
+}
+
+std::optional<EnergyOnset> rising_at_end(const AutomaticTransfer& rule, const ZoneHistory& h,
+                                         std::span<const double> base_energy) {
+  const std::size_t n = h.time.size();
+  const EnergyLevels x = energy_levels(rule, h, base_energy);
+  std::size_t first = n;
+  while (first > x.liquefied && x.energy[first - 1] > rule.growth * x.envelope[first - 1]) --first;
+  if (first == n) return std::nullopt;
+  return EnergyOnset{first, x.energy[first], x.envelope[first]};
 }
 
 TransferChoice choose_transfer(const TransferTimeConfig& config, const ZoneHistory& h,

@@ -69,6 +69,11 @@ struct EnergyOnset {
 std::optional<EnergyOnset> find_onset(const AutomaticTransfer& rule, const ZoneHistory& history,
                                       std::span<const double> base_energy);
 
+/// Where the energy rises above `growth` times the envelope to stay there until the record ends,
+/// for however short a time.
+std::optional<EnergyOnset> rising_at_end(const AutomaticTransfer& rule, const ZoneHistory& history,
+                                         std::span<const double> base_energy);
+
 template <>
 struct Schema<AutomaticTransfer> {
   static constexpr std::string_view doc = "Criteria of the automatic transfer time.";

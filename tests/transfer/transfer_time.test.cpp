@@ -78,6 +78,19 @@ TEST_CASE("the onset lies soon after the slide begins", "[transfer]") {
   }
 }
 
+TEST_CASE("a record that ends in the rise says so", "[transfer]") {
+  // The slide passes twice the envelope about 2 s after it begins; 1 s is left, 2 s are asked for.
+  const Record record(28.0, 1e9);
+  CHECK_FALSE(find_onset({}, record.h, record.base));
+  const auto rising = rising_at_end({}, record.h, record.base);
+  REQUIRE(rising);
+  CHECK(record.h.time[rising->sample] > 28.0);
+  const TransferChoice choice = record.choose();
+  CHECK(choice.frame == 300);
+  CHECK_THAT(choice.reason, Catch::Contains("to the end of the record, too short a time"));
+  CHECK_FALSE(rising_at_end({}, Record(1e9, 1e9).h, record.base));
+}
+
 TEST_CASE("a short burst is not sustained growth", "[transfer]") {
   Record record(1e9, 1e9);
   for (std::size_t i = 150; i < 153; ++i) record.h.kinetic_energy_relative[i] = 200.0;
