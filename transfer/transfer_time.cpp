@@ -47,7 +47,7 @@ std::size_t nearest_sample(std::span<const double> time, double t) {
 
 TransferChoice at_sample(const ZoneHistory& h, std::size_t i, const std::string& reason) {
   return {static_cast<int>(i), h.time[i],
-          fmt::format("{}; frame {} of {} at {:.4g} s", reason, i, h.time.size(), h.time[i])};
+          fmt::format("{}; frame {} of {} at {:.4g} s", reason, i + 1, h.time.size(), h.time[i])};
 }
 
 TransferChoice automatic(const AutomaticTransfer& rule, const ZoneHistory& h,
