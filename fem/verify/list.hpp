@@ -12,6 +12,8 @@ std::vector<Check> verify_harmonic_column(std::string_view name);
 std::vector<Check> verify_site_response(std::string_view name);
 std::vector<Check> verify_reflection(std::string_view name);
 std::vector<Check> verify_undrained(std::string_view name);
+std::vector<Check> verify_cyclic_strength(std::string_view name);
+std::vector<Check> verify_undrained_strength(std::string_view name);
 std::vector<Check> verify_pm4sand_step(std::string_view name);
 std::vector<Check> verify_rest(std::string_view name);
 std::vector<Check> verify_bending(std::string_view name);
