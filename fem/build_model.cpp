@@ -170,16 +170,6 @@ void set_base(Model& r, const Outline& outline, const FemBaseConfig& config) {
   }
 }
 
-double level(const std::vector<std::vector<double>>& table, double x) {
-  if (x <= table.front()[0]) return table.front()[1];
-  for (std::size_t i = 1; i < table.size(); ++i) {
-    const double x0 = table[i - 1][0], x1 = table[i][0];
-    if (x <= x1 && x1 > x0)
-      return table[i - 1][1] + (table[i][1] - table[i - 1][1]) * (x - x0) / (x1 - x0);
-  }
-  return table.back()[1];
-}
-
 /// Known pressures, and the weight of water above the surface.
 void set_water(Model& r, const Outline& outline, const SectionMesh& section,
                const FemConfig& config) {
@@ -191,7 +181,7 @@ void set_water(Model& r, const Outline& outline, const SectionMesh& section,
   const double unit_weight = r.fluid.density * r.gravity;
   const auto head = [&](std::int32_t node) {
     const auto [x, y] = r.mesh.nodes[node];
-    return unit_weight * std::max(0.0, level(config.water->table, x) - y);
+    return unit_weight * std::max(0.0, water_level(*config.water, x) - y);
   };
   for (std::size_t i = 0; i < r.mesh.num_nodes(); ++i)
     if (!(head(static_cast<std::int32_t>(i)) > 0.0)) r.known_pressure[i] = 0.0;
@@ -214,6 +204,17 @@ void set_water(Model& r, const Outline& outline, const SectionMesh& section,
 }
 
 }  // namespace
+
+double water_level(const WaterConfig& water, double x) {
+  const auto& table = water.table;
+  if (x <= table.front()[0]) return table.front()[1];
+  for (std::size_t i = 1; i < table.size(); ++i) {
+    const double x0 = table[i - 1][0], x1 = table[i][0];
+    if (x <= x1 && x1 > x0)
+      return table[i - 1][1] + (table[i][1] - table[i - 1][1]) * (x - x0) / (x1 - x0);
+  }
+  return table.back()[1];
+}
 
 Model build_model(const SectionMesh& section, const FemConfig& config) {
   flowslide::check(config);

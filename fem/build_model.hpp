@@ -9,4 +9,7 @@ namespace flowslide::fem {
 /// InputError, for instance for a material that the settings or the mesh do not know.
 Model build_model(const SectionMesh& section, const FemConfig& config);
 
+/// Level of the water table at x [m].
+double water_level(const WaterConfig& water, double x);
+
 }  // namespace flowslide::fem

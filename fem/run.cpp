@@ -83,6 +83,30 @@ void fill(FemFrame& frame, const Solver& s, std::size_t nodes, std::size_t eleme
   }
 }
 
+/// Water at rest that stands far below the table is easily overlooked: layers drain each other by
+/// their permeabilities, and the soil is stronger for it.
+std::optional<std::string> drained_note(const SectionMesh& section, const FemConfig& config,
+                                        const Solver& s) {
+  if (!config.water) return std::nullopt;
+  const double unit_weight = s.model.fluid.density * s.model.gravity;
+  double missing = 0.0, standing = 0.0;
+  std::size_t worst = 0;
+  for (std::size_t i = 0; i < section.mesh.num_nodes(); ++i) {
+    const auto [x, y] = section.mesh.nodes[i];
+    const double p = unit_weight * std::max(0.0, water_level(*config.water, x) - y);
+    if (p - s.state.pressure[i] <= missing || is_set(s.model.known_pressure[i])) continue;
+    missing = p - s.state.pressure[i];
+    standing = p;
+    worst = i;
+  }
+  if (!(missing > 0.5 * standing)) return std::nullopt;
+  return fmt::format(
+      "pore pressure at rest lies up to {:.0f} kPa below that of standing water ({:.0f} kPa at "
+      "({:.1f}, {:.1f}) m): steady flow by the permeabilities given drains the ground; "
+      "gravity.permeability, one for all soil, leaves the water standing",
+      1e-3 * missing, 1e-3 * standing, section.mesh.nodes[worst][0], section.mesh.nodes[worst][1]);
+}
+
 /// Of the nodes against the mean of those at the base [m].
 double largest_displacement(const FemFrame& frame, const std::vector<std::int32_t>& base) {
   Vec2 ground{};
@@ -134,10 +158,15 @@ FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const F
   const Velocity ground(motion);
   const double end = config.end.value_or(motion.duration());
   const std::size_t nodes = section.mesh.num_nodes(), elements = section.mesh.num_elements();
+  std::vector<std::string> notes = section.notes;
+  if (auto note = drained_note(section, config, s)) {
+    facts.notes.push_back(*note);
+    notes.push_back(std::move(*note));
+  }
   FemHistoryWriter writer(
       history, section.mesh,
       {"flowslide fem.run", "mean of xx and yy for PM4Sand, elastic plane strain for other laws",
-       section.notes});
+       notes});
   FemFrame frame;
   fill(frame, s, nodes, elements);
   writer.set_gravity(frame);

@@ -6,6 +6,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 /// The stage of shaking: a section and a motion become a FemHistory.
 namespace flowslide {
@@ -24,6 +26,7 @@ struct FemFacts {
   double sub_steps = 0.0;                          ///< of PM4Sand
   double floored = 0.0;  ///< sub-steps that ended at the floor of mean stress
   double seconds = 0.0;  ///< wall time of the steps
+  std::vector<std::string> notes;
 };
 
 /// Runs gravity and shaking and writes the history, without the free-field columns. Displacements

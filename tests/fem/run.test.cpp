@@ -76,6 +76,26 @@ TEST_CASE("A run ends where the section has moved too far, if asked", "[fem]") {
   CHECK(a.frame(last).displacement == b.frame(last).displacement);
 }
 
+TEST_CASE("A run tells where layers drain each other at rest", "[fem]") {
+  SectionMesh s = section({.columns = 2, .rows = 8, .width = 2.0, .height = 8.0});
+  s.materials.push_back({"gravel", 2});
+  for (std::size_t e = 0; e < 4; ++e) s.mesh.element_material[e] = 2;
+  s.sets.push_back({"well", {{0, 1}}});
+  FemConfig c = config(elastic_soil(), 8.0);
+  c.materials["soil"].permeability = {1e-8, 1e-8};
+  c.materials["gravel"] = elastic_soil();
+  c.materials["gravel"].permeability = {1e-2, 1e-2};
+  c.water->drains = {"well"};
+  c.end = 0.01;
+  const Scratch folder;
+  const FemFacts drained = run_fem(s, sine(1.0, 0.5), c, folder / "a.h5", 1, {});
+  REQUIRE(drained.notes.size() == 1);
+  CHECK_THAT(drained.notes[0], Catch::Contains("gravity.permeability"));
+  CHECK(FemHistory(folder / "a.h5").origin().notes == drained.notes);
+  c.water->drains.clear();
+  CHECK(run_fem(s, sine(1.0, 0.5), c, folder / "b.h5", 1, {}).notes.empty());
+}
+
 TEST_CASE("A stop request ends the run without a history", "[fem]") {
   const std::atomic<bool> stop{true};
   Progress progress;

@@ -45,7 +45,8 @@ struct FemRun {
                                           {"fem_kinetic_energy_j", f.kinetic_energy},
                                           {"fem_sub_steps", f.sub_steps},
                                           {"fem_sub_steps_at_floor", f.floored},
-                                          {"fem_seconds", f.seconds}};
+                                          {"fem_seconds", f.seconds},
+                                          {"fem_notes", f.notes}};
     return {.facts = facts.dump(), .publish = {}};
   }
 };
