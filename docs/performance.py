@@ -22,8 +22,8 @@ TARGETS = {"2d/linear": 20, "2d/quadratic": 12, "3d/linear": 12, "3d/quadratic":
 def speed_table(rows):
     lines = [
         "| dimension / basis | law | points | M updates/s/core | target | ns | bytes | triad GB/s "
-        "| % of roofline |",
-        "|---|---|---|---|---|---|---|---|---|",
+        "| % of roofline | efficiency of 2 threads, % |",
+        "|---|---|---|---|---|---|---|---|---|---|",
     ]
     for r in rows:
         _, dim, basis, law, points = r["name"].split("/")
@@ -31,7 +31,21 @@ def speed_table(rows):
             f"| {dim} {basis} | {law} | {int(points):,} | {r['value']:.1f} "
             f"| {TARGETS[f'{dim}/{basis}']} | {r['ns_per_update']:.0f} "
             f"| {r['bytes_per_update']:.0f} | {r['triad_gb_per_s']:.1f} "
-            f"| {r['roofline_percent']:.0f} |"
+            f"| {r['roofline_percent']:.0f} | {r.get('efficiency_2_threads_percent', 0):.0f} |"
+        )
+    return "\n".join(lines)
+
+
+def valley_table(rows):
+    lines = [
+        "| points | threads | M updates/s | s per step | step, ms | peak memory, GiB |",
+        "|---|---|---|---|---|---|",
+    ]
+    for r in rows:
+        lines.append(
+            f"| {int(r['name'].split('/')[-1]):,} | {r['threads']:.0f} | {r['value']:.1f} "
+            f"| {r['seconds_per_step']:.2f} | {1e3 * r['step_s']:.2f} "
+            f"| {r['peak_memory_gib']:.2f} |"
         )
     return "\n".join(lines)
 
@@ -112,7 +126,7 @@ def replace(text, mark, table):
 def main():
     measurements = json.loads((DOCS / "performance.json").read_text())
     mpm = [m for m in measurements if m["name"].startswith("mpm/")]
-    speed = [m for m in mpm if not m["name"].startswith("mpm/curve/")]
+    speed = [m for m in mpm if m["unit"] == "Mupdates/s/core"]
     curves = {}
     for m in mpm:
         if m["name"].startswith("mpm/curve/"):
@@ -130,6 +144,9 @@ def main():
     if curves:
         text = replace(text, "curves", curve_table(curves))
         draw(curves, DOCS / "images" / "work-precision.png")
+    valley = [m for m in mpm if m["name"].startswith("mpm/3d/valley/")]
+    if valley:
+        text = replace(text, "valley", valley_table(valley))
     for mark, table in (("pm4sand", pm4sand_table), ("step", step_table)):
         rows = [m for m in measurements if m["name"].startswith(f"fem/{mark}/")]
         if rows:
