@@ -80,6 +80,7 @@ struct NorSand {
     StrainIncrement<Dim, T> part = de;
     for (T& x : part.v) x *= 1.0 / parts;
     StressUpdate<StateOf<T>, Dim, T> r{sigma, old};
+    admit<Dim>(c, r);
     for (int i = 0; i < parts; ++i) advance<Dim>(c, part, r);
     return r;
   }
@@ -92,6 +93,31 @@ struct NorSand {
     return c.elastic.shear *
            std::pow(std::max(pressure, c.p.minimum_pressure) / c.p.reference_pressure,
                     c.p.shear_exponent);
+  }
+
+  /// M_i at an image pressure [-].
+  static double image_ratio(const Params& k, double chi, double psi_image) noexcept {
+    return std::max(0.1 * k.critical_ratio,
+                    k.critical_ratio - k.coupling * chi * std::abs(psi_image));
+  }
+  static double limiting_dilatancy(const Params& k) noexcept {
+    return k.dilatancy / (1.0 - k.csl_slope * k.dilatancy / k.critical_ratio);
+  }
+
+  /// A stress beyond the surface, which only the start of a run can bring, loses what is too much
+  /// of its deviator: flow along the surface from that far is ill-conditioned.
+  template <int Dim>
+  static void admit(const Constants& c, StressUpdate<State, Dim>& r) noexcept {
+    const double mean = mean_stress(r.stress), q = std::sqrt(3.0 * j2(r.stress));
+    const double p = std::max(c.p.minimum_pressure, -(mean + r.state.pore_pressure));
+    const double image = r.state.image_pressure;
+    const double psi_image = state_parameter(c.p, r.state.void_ratio, image);
+    const double m = image_ratio(c.p, limiting_dilatancy(c.p), psi_image);
+    const double most = std::max(0.0, p * m * (1.0 + std::log(image / p)));
+    if (!(q > most)) return;
+    const double scale = most / q;
+    for (int i = 0; i < 3; ++i) r.stress[i] = (r.stress[i] - mean) * scale + mean;
+    for (int i = 3; i < kVoigt<Dim>; ++i) r.stress[i] *= scale;
   }
 
   template <int Dim>
@@ -116,11 +142,10 @@ struct NorSand {
     double image = r.state.image_pressure, sheared = 0.0;
     const double e = std::max(0.01, r.state.void_ratio + (1.0 + r.state.void_ratio) * volumetric);
 
-    const double chi = k.dilatancy / (1.0 - k.csl_slope * k.dilatancy / k.critical_ratio);
+    const double chi = limiting_dilatancy(k);
     for (int i = 0; i < 30; ++i) {
       const double psi_image = state_parameter(k, e, image);
-      const double m = std::max(0.1 * k.critical_ratio,
-                                k.critical_ratio - k.coupling * chi * std::abs(psi_image));
+      const double m = image_ratio(k, chi, psi_image);
       const double f = q - p * m * (1.0 + std::log(image / p));
       if (f <= 1e-9 * p) break;
       const double dilatancy = m * std::log(p / image);  // M_i - eta on the surface
