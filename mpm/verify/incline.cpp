@@ -15,12 +15,14 @@ struct Slide {
   double along, normal;  ///< displacement of the centre of mass after kEnd [m]
 };
 
+/// The answer is that of a rigid block. An elastic one rubs less until a shear wave has told its
+/// mass of the ground: it gains about mu g cos(a) t_s / 2, t_s = H / c_s.
 /// `turn` is the angle of the ground to the grid [rad]; the ground falls to the right.
 Slide slide(double turn, double mu) {
   const std::array<double, 2> along{std::cos(turn), -std::sin(turn)};
   const std::array<double, 2> normal{std::sin(turn), std::cos(turn)};
   ParticleSet p;
-  p.materials = {elastic(50e6, 0.2)};
+  p.materials = {elastic(200e6, 0.2)};
   fill(p, {-0.5 * kLength, 0.0, 0.5 * kLength, kHeight}, 0.5 * kCell, kDensity);
   for (std::size_t q = 0; q < p.size(); ++q) {
     const double s = p.position[q][0], n = p.position[q][1];

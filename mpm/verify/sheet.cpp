@@ -26,7 +26,7 @@ struct Layer {
     return p;
   }
   [[nodiscard]] PeriodicStrip strip(const MaterialSpec& soil, bool sheared,
-                                    Transfer transfer = Transfer::apic) const {
+                                    Transfer transfer) const {
     FlowConfig config = free_space(cell);
     config.transfer = transfer;
     config.ground.surface = {{0.0, 0.0}};
@@ -37,26 +37,24 @@ struct Layer {
   }
 };
 
-/// Mean velocity along the ground of what lies above half the depth [m/s].
-double upper_velocity(const PeriodicStrip& s) {
+/// Mean velocity along the ground [m/s].
+double mean_velocity(const PeriodicStrip& s) {
   const Points<2>& q = s.trial.sim.points;
   double sum = 0.0, count = 0.0;
   s.for_each([&](std::size_t i) {
-    if (q.x[1][i] < 0.5 * kDepth) return;
     sum += q.v[0][i];
     count += 1.0;
   });
   return sum / count;
 }
 
-/// Acceleration of the upper half between 0.1 and 0.2 s [m/s2].
-double slide_acceleration(const Layer& layer, const MaterialSpec& soil,
-                          Transfer transfer = Transfer::apic) {
+/// Mean acceleration of the layer between 0.1 and 0.2 s [m/s2].
+double slide_acceleration(const Layer& layer, const MaterialSpec& soil, Transfer transfer) {
   PeriodicStrip s = layer.strip(soil, true, transfer);
   s.run_to(0.1);
-  const double v = upper_velocity(s), t = s.trial.sim.time;
+  const double v = mean_velocity(s), t = s.trial.sim.time;
   s.run_to(0.2);
-  return (upper_velocity(s) - v) / (s.trial.sim.time - t);
+  return (mean_velocity(s) - v) / (s.trial.sim.time - t);
 }
 
 MaterialSpec tresca(double strength) {
@@ -81,8 +79,8 @@ SheetFlow sheet(double cell, double yield_stress) {
                 "bingham",
                 {{"bulk_modulus", 2e6}, {"viscosity", viscosity}, {"yield_stress", yield_stress}})
           : material("newtonian_fluid", {{"bulk_modulus", 2e6}, {"viscosity", viscosity}});
-  PeriodicStrip s = layer.strip(fluid, false);
-  s.run_to(2.5);
+  PeriodicStrip s = layer.strip(fluid, false, Transfer::apic);
+  s.run_to(5.0);  // twelve times the slowest time constant 4 rho d^2 / (pi^2 eta)
   const double weight = density * kGravity * std::sin(layer.angle);
   const double sheared = kDepth - yield_stress / weight;
   const double plug = 0.5 * weight * sheared * sheared / viscosity;
@@ -104,27 +102,30 @@ SheetFlow sheet(double cell, double yield_stress) {
 
 std::vector<Check> verify_infinite_slope(std::string_view name) {
   CheckList checks(name);
-  const Layer layer{kPi / 6.0, 2000.0, kDepth / 16.0};
+  const Layer layer{kPi / 6.0, 2000.0, kDepth / 16.0}, fine{kPi / 6.0, 2000.0, kDepth / 32.0};
   const double drive = kGravity * std::sin(layer.angle);
+  // The soil slips 0.6 cells above the ground and leaves the rest behind: an error of first order.
+  const auto check = [&](const std::string& label, const MaterialSpec& soil, double exact) {
+    const double at_16 = slide_acceleration(layer, soil, Transfer::aflip);
+    const double at_32 = slide_acceleration(fine, soil, Transfer::aflip);
+    checks.near("acceleration_" + label, 2.0 * at_32 - at_16, exact, 0.02 * exact, "m/s2");
+    checks.at_least("order_" + label, std::log2((exact - at_16) / (exact - at_32)), 0.9);
+  };
   for (const double share : {0.5, 0.8}) {
     const double c = share * layer.density * drive * kDepth;
-    const double exact = drive - c / (layer.density * kDepth);
-    checks.near(fmt::format("acceleration_c{:g}", share), slide_acceleration(layer, tresca(c)),
-                exact, 0.02 * exact, "m/s2");
-    checks.near(fmt::format("acceleration_c{:g}_aflip", share),
-                slide_acceleration(layer, tresca(c), Transfer::aflip), exact, 0.02 * exact, "m/s2");
+    check(fmt::format("c{:g}", share), tresca(c), drive - c / (layer.density * kDepth));
   }
-  const double strong = 1.01 * layer.density * drive * kDepth;
-  checks.error("stands_c1.01", slide_acceleration(layer, tresca(strong)), 0.01 * drive, "m/s2");
   // Without dilation the layer shears at tau = sigma_n sin(phi) (Davis 1968).
   const double phi = 20.0 * kPi / 180.0;
-  const double exact = drive - kGravity * std::cos(layer.angle) * std::sin(phi);
-  checks.near("acceleration_phi20",
-              slide_acceleration(layer, material("mohr_coulomb", {{"youngs_modulus", 20e6},
-                                                                  {"poisson_ratio", 0.3},
-                                                                  {"cohesion", 0.0},
-                                                                  {"friction_angle", phi}})),
-              exact, 0.02 * exact, "m/s2");
+  check("phi20",
+        material("mohr_coulomb", {{"youngs_modulus", 20e6},
+                                  {"poisson_ratio", 0.3},
+                                  {"cohesion", 0.0},
+                                  {"friction_angle", phi}}),
+        drive - kGravity * std::cos(layer.angle) * std::sin(phi));
+  const double strong = 1.01 * layer.density * drive * kDepth;
+  checks.error("stands_c1.01", slide_acceleration(layer, tresca(strong), Transfer::apic),
+               0.01 * drive, "m/s2");
   return checks.take();
 }
 
