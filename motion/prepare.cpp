@@ -21,6 +21,10 @@ struct Schema<SyntheticConfig> {
                "exponent of the envelope; smaller is a sharper onset and a longer coda");
     v.quantity("lead", c.lead, Dim::time, {.min = 0.0, .max = 600.0},
                "quiet time before the shaking");
+    v.quantity("strong_begin", c.strong_begin, Dim::time, {.min = 0.0}, "begin of a strong phase");
+    v.quantity("strong_end", c.strong_end, Dim::time, {.min = 0.0}, "its end");
+    v.quantity("strong_ratio", c.strong_ratio, Dim::none, {.min = 0.0, .max = 100.0},
+               "how much it raises the envelope, over the peak of the rest");
   }
 };
 

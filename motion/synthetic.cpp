@@ -62,6 +62,16 @@ double envelope(double t, double t_p, double rise) {
   return std::exp(rise * (std::log(t / t_p) + 1.0 - t / t_p));
 }
 
+/// What a strong phase adds: cos^2 with half its height at begin and end.
+double strong_phase(double t, const SyntheticConfig& c) {
+  if (!c.strong_begin) return 0.0;
+  const double half = 0.5 * (*c.strong_end - *c.strong_begin);
+  const double x = (t - *c.strong_begin - half) / half;
+  if (std::abs(x) >= 2.0) return 0.0;
+  const double cosine = std::cos(0.25 * kPi * x);
+  return c.strong_ratio * cosine * cosine;
+}
+
 /// Ends the envelope, so that the filters ring out before the transform comes round to the start.
 double end_taper(double share) {
   constexpr double kBegin = 0.75, kEnd = 0.9;  // of the length
@@ -78,8 +88,8 @@ GroundMotion shaped(const SyntheticConfig& c, const std::vector<double>& noise, 
   const std::size_t n = noise.size();
   std::vector<double> windowed(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const double place = static_cast<double>(i);
-    windowed[i] = noise[i] * envelope(place * c.dt - c.lead, shape.t_p, c.rise) *
+    const double place = static_cast<double>(i), t = place * c.dt;
+    windowed[i] = noise[i] * (envelope(t - c.lead, shape.t_p, c.rise) + strong_phase(t, c)) *
                   end_taper(place / static_cast<double>(n));
   }
 
@@ -111,6 +121,15 @@ void check_settings(const SyntheticConfig& c) {
   check_range("kappa", c.kappa, 0.0, 0.2, " s");
   check_range("rise", c.rise, 0.5, 10.0, "");
   check_range("lead", c.lead, 0.0, 600.0, " s");
+  validate(c.strong_begin.has_value() == c.strong_end.has_value(),
+           "synthetic motion: strong_begin and strong_end belong together");
+  if (c.strong_begin) {
+    const double begin = *c.strong_begin, end = *c.strong_end;
+    check_range("strong_ratio", c.strong_ratio, 0.0, 100.0, "");
+    check_range("strong_end", end, begin + 2.0 * c.tm, begin + c.d5_95, " s");
+    // The flanks of the phase reach half its length beyond it.
+    check_range("strong_begin", begin, c.lead + 0.5 * (end - begin), c.lead + 2.0 * c.d5_95, " s");
+  }
   validate(c.d5_95 >= 3.0 * c.tm,
            "synthetic motion: d5_95 {} s is shorter than three mean periods of {} s (too few "
            "cycles to be an earthquake)",

@@ -1,6 +1,7 @@
 #pragma once
 #include "model/ground_motion.hpp"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,6 +21,10 @@ struct SyntheticConfig {
   double kappa = 0.02;     ///< decay of high frequencies, exp(-pi kappa f) [s]
   double rise = 2.0;       ///< exponent of the envelope; smaller: sharper onset, longer coda
   double lead = 1.0;       ///< quiet time before the shaking [s]
+  /// Strong phase: the envelope is raised by strong_ratio times its own peak from begin to end,
+  /// both or neither given [s].
+  std::optional<double> strong_begin, strong_end;
+  double strong_ratio = 3.0;
 };
 
 /// Throws InputError for settings out of range; NumericsError if the measures cannot be reached
@@ -38,7 +43,9 @@ struct MotionPreset {
   int seed = 1;
   double bandwidth = 0.6;
   double rise = 2.0;
-  double lead = 1.0;  ///< [s]
+  double lead = 1.0;                               ///< [s]
+  std::optional<double> strong_begin, strong_end;  ///< [s]
+  double strong_ratio = 3.0;
 };
 
 std::span<const MotionPreset> motion_presets();

@@ -93,6 +93,32 @@ TEST_CASE("shape settings do what they say", "[motion]") {
   CHECK(half(synthesize(config)) < half(plain));
 }
 
+TEST_CASE("a strong phase concentrates the energy and keeps the measures", "[motion]") {
+  SyntheticConfig config = sample_config();
+  const GroundMotion plain = synthesize(config);
+  config.strong_begin = 5.0;
+  config.strong_end = 7.0;
+  const GroundMotion strong = synthesize(config);
+  CHECK(pga(strong) == config.pga);
+  CHECK(mean_period(strong) == Approx(config.tm).epsilon(3e-3));
+  CHECK(significant_duration(strong) == Approx(config.d5_95).epsilon(3e-3));
+  // At equal peak. Most of the energy lies between half a length before and after the phase.
+  CHECK(arias_intensity(strong) < 0.8 * arias_intensity(plain));
+  CHECK(arias_time(strong, 0.75) - arias_time(strong, 0.15) < 3.0);
+  CHECK(arias_time(plain, 0.75) - arias_time(plain, 0.15) > 3.0);
+  config.strong_ratio = 0.0;
+  CHECK(synthesize(config).acceleration == plain.acceleration);
+}
+
+TEST_CASE("the Ridgecrest preset has the energy of a record at its peak", "[motion]") {
+  const GroundMotion m = synthesize(preset_config("ridgecrest-china-lake", 0.3 * kGravity));
+  // Ia/(PGA^2 D5-95) of ten records: 0.43 to 1.21, median 0.59 (docs/theory/ground-motion.md).
+  CHECK(arias_intensity(m) / (0.09 * significant_duration(m)) == Approx(0.59).epsilon(0.1));
+  // The strong phase of the record is at 17 to 19 s.
+  CHECK(arias_time(m, 0.5) > 17.0);
+  CHECK(arias_time(m, 0.5) < 19.0);
+}
+
 TEST_CASE("impossible synthetic motions are refused", "[motion]") {
   const auto problem = [](auto change) {
     SyntheticConfig config = sample_config();
@@ -109,6 +135,11 @@ TEST_CASE("impossible synthetic motions are refused", "[motion]") {
   CHECK_THAT(problem([](auto& c) { c.d5_95 = 1e9; }), Contains("d5_95"));
   CHECK_THAT(problem([](auto& c) { c.dt = 1e-9; }), Contains("dt"));
   CHECK_THAT(problem([](auto& c) { c.tm = 2.0, c.d5_95 = 2.0; }), Contains("three mean periods"));
+  CHECK_THAT(problem([](auto& c) { c.strong_begin = 5.0; }), Contains("belong together"));
+  CHECK_THAT(problem([](auto& c) { c.strong_begin = 5.0, c.strong_end = 4.0; }),
+             Contains("strong_end"));
+  CHECK_THAT(problem([](auto& c) { c.strong_begin = 0.0, c.strong_end = 4.0; }),
+             Contains("strong_begin"));
   CHECK_THROWS_WITH(preset_config("tabas", 1.0), Contains("tabas-dayhook"));
 }
 
