@@ -112,6 +112,9 @@ void Schema<StabilisationConfig>::describe(FieldVisitor& v, StabilisationConfig&
   v.quantity(
       "hourglass", c.hourglass, Dim::none, {.min = 0.0, .max = 10.0},
       "factor on the stiffness against hourglass motion; it has the shear modulus of gravity");
+  v.flag(
+      "hourglass_yields", c.hourglass_yields,
+      "bound hourglass stress by the strength of the soil; false: elastic for ever, as SSPquadUP");
 }
 
 void Schema<FemConfig>::describe(FieldVisitor& v, FemConfig& c) {

@@ -66,6 +66,7 @@ struct StabilisationConfig {
   double pressure = 0.25;         ///< alpha M/A
   std::optional<double> modulus;  ///< M [Pa]
   double hourglass = 1.0;         ///< factor on the hourglass stiffness
+  bool hourglass_yields = true;   ///< at the strength of the soil
 };
 
 struct FemConfig {

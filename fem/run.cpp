@@ -154,6 +154,7 @@ FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const F
   facts.out_of_balance = out_of_balance(s);
   refresh_moduli(s);
   set_stabilisation(s, config.stabilisation);
+  if (config.stabilisation.hourglass_yields) let_hourglass_yield(s);
 
   const Velocity ground(motion);
   const double end = config.end.value_or(motion.duration());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace flowslide::fem {
 
@@ -83,6 +84,31 @@ Solver make_solver(const Model& model, const Damping& damping) {
   }
   for (std::size_t u = 0; u < dofs; ++u) s.dashpot[u] += damping.mass * s.layout.mass[u];
   return s;
+}
+
+double hourglass_stress(const Solver& s, std::size_t e) {
+  const Elements& g = s.layout.elements;
+  const double qx = s.state.hourglass_x[e], qy = s.state.hourglass_y[e];
+  const double energy = g.hss[e] * qx * qx - 2.0 * g.hst[e] * qx * qy + g.htt[e] * qy * qy;
+  return s.hourglass_shear[e] * std::sqrt(std::max(0.0, energy) / g.volume[e]);
+}
+
+void let_hourglass_yield(Solver& s) {
+  s.hourglass_strength.resize(s.model.materials.size());
+  for (std::size_t m = 0; m < s.model.materials.size(); ++m) {
+    const Law& law = s.model.materials[m].law;
+    if (std::holds_alternative<PM4Sand::Params>(law)) {
+      s.hourglass_strength[m] = {0.0, 0.5 * s.laws.pm4sand[m].M};
+    } else if (const auto* mc = std::get_if<MohrCoulomb::Params>(&law)) {
+      s.hourglass_strength[m] = {mc->cohesion * std::cos(mc->friction_angle),
+                                 std::sin(mc->friction_angle)};
+    } else {
+      s.hourglass_strength[m] = {std::numeric_limits<double>::infinity(), 0.0};
+    }
+  }
+  s.hourglass_rest.resize(s.layout.elements.size());
+  for (std::size_t e = 0; e < s.hourglass_rest.size(); ++e)
+    s.hourglass_rest[e] = hourglass_stress(s, e);
 }
 
 void refresh_moduli(Solver& s) {

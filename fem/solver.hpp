@@ -75,6 +75,12 @@ struct Solver {
   LawConstants laws;
   Damping damping;
   std::vector<double> hourglass_shear;  ///< shear modulus of the hourglass stiffness [Pa]
+  /// Of each material: shear stress c + p sin_phi that hourglass motion may carry [Pa], [-].
+  struct Strength {
+    double cohesion = 0.0, friction = 0.0;
+  };
+  std::vector<Strength> hourglass_strength;
+  std::vector<double> hourglass_rest;  ///< hourglass stress at rest, which stays admissible [Pa]
 
   State state;
   double dt = kUnset;                 ///< present step [s]
@@ -108,6 +114,14 @@ Elasticity gravity_elasticity(const Material& m);
 
 /// Allocates everything; stress, pressure and laws are empty until solve_gravity.
 Solver make_solver(const Model& model, const Damping& damping);
+
+/// Hourglass stress of an element: the root mean square of the shear stress of the assumed strain
+/// [Pa].
+double hourglass_stress(const Solver& s, std::size_t e);
+
+/// From here on hourglass stress is bounded by the strength of the soil at its present mean
+/// effective stress, or by the hourglass stress that it has now. docs/theory/fem.md, "Element".
+void let_hourglass_yield(Solver& s);
 
 /// Recomputes `lambda` and `shear` from the present state.
 void refresh_moduli(Solver& s);

@@ -61,6 +61,18 @@ void update_stress(Solver& s, std::int32_t e, Counters& counters) {
   }
 }
 
+/// Takes back hourglass displacement beyond the strength of the soil.
+void yield_hourglass(Solver& s, std::int32_t e) {
+  const Stress<2>& stress = s.state.stress[e];
+  const auto [cohesion, friction] = s.hourglass_strength[s.layout.material[e]];
+  const double p = std::max(0.0, -0.5 * (stress[0] + stress[1]));
+  const double limit = std::max(cohesion + friction * p, s.hourglass_rest[e]);
+  const double present = hourglass_stress(s, e);
+  if (!(present > limit)) return;
+  s.state.hourglass_x[e] *= limit / present;
+  s.state.hourglass_y[e] *= limit / present;
+}
+
 /// Water that the elements press to their nodes: volume change and Darcy flow.
 void flow(Solver& s, std::int32_t begin, std::int32_t end) {
   const Elements& g = s.layout.elements;
@@ -237,6 +249,7 @@ void advance(Solver& s, const BaseMotion& base) {
       deform(s, begin, end, sums.largest_strain);
       for (std::int32_t e = begin; e < end; ++e) {
         update_stress(s, e, sums.counters);
+        if (!s.hourglass_strength.empty()) yield_hourglass(s, e);
         const Stress<2>& stress = s.state.stress[e];
         if (!std::isfinite(stress[0] + stress[1] + stress[3]) && sums.failed < 0) sums.failed = e;
       }

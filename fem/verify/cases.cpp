@@ -28,6 +28,7 @@ std::vector<VerificationCase> fem_cases() {
        verify_pm4sand_step},
       {"fem/c2_rest", "a slope of sand at rest for 10 s", true, verify_rest},
       {"fem/c2_bending", "cantilever, against the beam", true, verify_bending},
+      {"fem/c2_hinge", "cantilever of weak soil, against its plastic moment", true, verify_hinge},
       {"fem/c2_hostile", "100 random sections and motions end well or with a cause", false,
        verify_hostile},
   };

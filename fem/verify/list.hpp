@@ -17,6 +17,7 @@ std::vector<Check> verify_undrained_strength(std::string_view name);
 std::vector<Check> verify_pm4sand_step(std::string_view name);
 std::vector<Check> verify_rest(std::string_view name);
 std::vector<Check> verify_bending(std::string_view name);
+std::vector<Check> verify_hinge(std::string_view name);
 std::vector<Check> verify_hostile(std::string_view name);
 
 }  // namespace flowslide::fem
