@@ -26,6 +26,8 @@ std::vector<VerificationCase> fem_cases() {
        verify_undrained_strength},
       {"fem/f9_steps", "sand column: smaller steps and strain increments", true,
        verify_pm4sand_step},
+      {"fem/f9_implicit", "sand column: implicit integration with an assembly of its own", true,
+       verify_implicit},
       {"fem/c2_rest", "a slope of sand at rest for 10 s", true, verify_rest},
       {"fem/c2_bending", "cantilever, against the beam", true, verify_bending},
       {"fem/c2_hinge", "cantilever of weak soil, against its plastic moment", true, verify_hinge},
