@@ -5,6 +5,7 @@ Usage: plot.py REPORT_FOLDER [NAME...]. Reads REPORT_FOLDER/data, runout.csv and
 writes REPORT_FOLDER/figures/NAME.svg and .png, all figures if no name is given. Change the style
 here and run it again as you like.
 """
+import concurrent.futures
 import pathlib
 import sys
 
@@ -102,23 +103,31 @@ def save(figure, path, kind, metadata):
     partial.rename(path)
 
 
-def main(folder, names):
-    section = plot_section.Section(folder / "data")
+def figures(folder):
+    """How to draw each figure; nothing is read before one is called."""
+    section = lambda: plot_section.Section(folder / "data")
     read = lambda name: np.atleast_1d(np.genfromtxt(folder / name, delimiter=",", names=True))
-    figures = {
-        "final_displacement": lambda: plot_section.final_displacement(section),
-        "final_materials": lambda: plot_section.final_materials(section),
-        "final_strength": lambda: plot_section.final_strength(section),
-        "section_before": lambda: plot_section.section_before(section),
-        "zone_history": lambda: zone_history(section, read("zone.csv")),
-        "flow_history": lambda: flow_history(read("runout.csv"))}
-    out = folder / "figures"
-    out.mkdir(exist_ok=True)
-    for name in names or figures:
-        figure = figures[name]()
-        if figure is not None:
-            save(figure, out / f"{name}.svg", "svg", {"Date": None})
-            save(figure, out / f"{name}.png", "png", {"Software": None})
+    return {
+        "final_displacement": lambda: plot_section.final_displacement(section()),
+        "section_before": lambda: plot_section.section_before(section()),
+        "flow_history": lambda: flow_history(read("runout.csv")),
+        "zone_history": lambda: zone_history(section(), read("zone.csv")),
+        "final_materials": lambda: plot_section.final_materials(section()),
+        "final_strength": lambda: plot_section.final_strength(section())}
+
+
+def draw(folder, name):
+    figure = figures(folder)[name]()
+    if figure is not None:
+        save(figure, folder / "figures" / f"{name}.svg", "svg", {"Date": None})
+        save(figure, folder / "figures" / f"{name}.png", "png", {"Software": None})
+
+
+def main(folder, names):
+    (folder / "figures").mkdir(exist_ok=True)
+    with concurrent.futures.ProcessPoolExecutor() as pool:
+        for drawing in [pool.submit(draw, folder, name) for name in names or figures(folder)]:
+            drawing.result()
 
 
 if __name__ == "__main__":
