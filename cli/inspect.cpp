@@ -79,6 +79,7 @@ Json inspect_flow(const fs::path& path) {
     j["time_s"] = {history.samples().front().time, last.time};
     j["runout_m"] = last.runout;
     j["max_speed_m_s"] = last.max_speed;
+    j["points_left"] = last.points_left;
     j["mass_error"] = last.mass_error;
     j["energy_error"] = last.energy_error;
   }

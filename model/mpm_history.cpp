@@ -13,7 +13,7 @@ namespace flowslide {
 namespace {
 
 constexpr std::string_view kKind = "mpm_history";
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 
 /// The one list of the arrays of a frame: f(name, label, array).
 template <class Frame, class F>
@@ -38,7 +38,7 @@ struct Column {
   const char* unit;
   double MpmSample::*value;
 };
-constexpr std::array<Column, 15> kColumns{
+constexpr std::array<Column, 22> kColumns{
     {{"time", "s", &MpmSample::time},
      {"runout", "m", &MpmSample::runout},
      {"front", "m", &MpmSample::front},
@@ -53,7 +53,14 @@ constexpr std::array<Column, 15> kColumns{
      {"mass_error", "-", &MpmSample::mass_error},
      {"max_speed", "m/s", &MpmSample::max_speed},
      {"dt", "s", &MpmSample::dt},
-     {"active_particles", "-", &MpmSample::active_particles}}};
+     {"active_particles", "-", &MpmSample::active_particles},
+     {"points_left", "-", &MpmSample::points_left},
+     {"mass_left", "kg", &MpmSample::mass_left},
+     {"kinetic_left", "J", &MpmSample::kinetic_left},
+     {"strain_energy_left", "J", &MpmSample::strain_energy_left},
+     {"momentum_left_x", "N s", &MpmSample::momentum_left_x},
+     {"momentum_left_y", "N s", &MpmSample::momentum_left_y},
+     {"load_work", "J", &MpmSample::load_work}}};
 static_assert(sizeof(MpmSample) == kColumns.size() * sizeof(double), "a column is missing");
 
 /// Doubles of one frame: time, 3 + 3 + 6 + 1 + 1 + 1 per particle.

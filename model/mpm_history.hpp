@@ -10,18 +10,21 @@
 /// Frames and time series of a runout. On disk: HDF5, kind "mpm_history", particles in order of id.
 namespace flowslide {
 
-/// State of all particles at one instant, in order of id.
+/// State of all particles at one instant, in order of id. Those that left through the outlet keep
+/// the state in which they left, but for their volume.
 struct MpmFrame {
   double time = 0.0;                                ///< [s] since transfer
   std::vector<std::array<double, 3>> position;      ///< [m]
   std::vector<std::array<double, 3>> velocity;      ///< [m/s]
   std::vector<std::array<double, 6>> stress;        ///< total [Pa]
-  std::vector<double> volume;                       ///< [m3]
+  std::vector<double> volume;                       ///< [m3]; 0 once it left through the outlet
   std::vector<double> plastic_strain;               ///< accumulated deviatoric plastic strain eps_q [-]
   std::vector<double> strength;                     ///< present undrained strength or cohesion [Pa]
 };
 
-/// One row per output of the time series; energies per metre of width in plane strain [J].
+/// One row per output of the time series; masses and energies per metre of width in plane strain.
+/// Works and the change of recoverable energy include what left through the outlet, `kinetic` does
+/// not; the front counts points that left with the place where they did.
 struct MpmSample {
   double time = 0.0;
   double runout = 0.0;            ///< [m] past the toe, by the fifth-farthest point
@@ -38,6 +41,13 @@ struct MpmSample {
   double max_speed = 0.0;         ///< [m/s]
   double dt = 0.0;                ///< time step [s]
   double active_particles = 0.0;  ///< share of particles not asleep [-]
+  double points_left = 0.0;       ///< number of points that left through the outlet
+  double mass_left = 0.0;         ///< their mass [kg]
+  double kinetic_left = 0.0;      ///< kinetic energy with which they left [J]
+  double strain_energy_left = 0.0;  ///< recoverable energy with which they left [J]
+  double momentum_left_x = 0.0;     ///< momentum with which they left [N s]
+  double momentum_left_y = 0.0;     ///< likewise, vertical [N s]
+  double load_work = 0.0;           ///< work of tractions since the start [J]
 };
 
 class MpmHistoryWriter {

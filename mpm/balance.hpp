@@ -19,9 +19,13 @@ struct PointSums {
   std::int32_t first_bad = -1;         ///< ParticleSet index of a point that is not finite
 };
 
-/// Sums in storage order: the same bits for any number of threads.
+/// Sums over some points of a simulation in storage order: the same bits for any number of threads.
 template <int Dim>
-PointSums<Dim> sum_points(const Simulation<Dim>& s);
+PointSums<Dim> sum_points(const Simulation<Dim>& s, const Points<Dim>& points);
+template <int Dim>
+PointSums<Dim> sum_points(const Simulation<Dim>& s) {
+  return sum_points(s, s.points);
+}
 
 /// Sums at the start of the run that the balances refer to.
 template <int Dim>

@@ -9,7 +9,7 @@ namespace flowslide::mpm {
 namespace {
 
 // Changes whenever the list of fields below changes.
-constexpr std::uint64_t kMagic = 0x666c6f77636b7031;
+constexpr std::uint64_t kMagic = 0x666c6f77636b7032;
 
 /// One list of fields for both directions: `Archive` writes or reads each.
 template <class Archive, class Sim, class Run>
@@ -25,11 +25,13 @@ void transfer_fields(Archive& a, Sim& s, Run& r) {
   a.value(r.recoverable_start);
   a.value(r.momentum_start);
   a.value(r.first_dt);
+  a.value(r.updates);
   a.array(r.recent);
   a.value(s.time);
   a.value(s.dt);
   a.value(s.step);
   a.value(s.drift);
+  a.value(s.binned);
   a.value(s.last);
   a.value(s.balance);
   a.array(s.tiling.tiles);
@@ -37,6 +39,7 @@ void transfer_fields(Archive& a, Sim& s, Run& r) {
   a.array(s.tiling.runs);
   a.array(s.contact.impulse);
   visit_arrays(s.points, [&](auto& array) { a.array(array); });
+  visit_arrays(s.gone, [&](auto& array) { a.array(array); });
 }
 
 class Writer {
@@ -117,7 +120,7 @@ void read_checkpoint(const std::filesystem::path& path, Simulation<2>& s, RunSta
   Reader in(path);
   in.value(magic);
   if (magic == kMagic) transfer_fields(in, s, run);
-  if (magic != kMagic || !in.complete() || s.points.size() != points) {
+  if (magic != kMagic || !in.complete() || s.points.size() + s.gone.size() != points) {
     throw FileError(
         fmt::format("the checkpoint '{}' is damaged or of another program version (cannot be "
                     "continued) delete it to start the flow anew",

@@ -17,6 +17,7 @@ struct RunState {
   double mass_start = 0.0, kinetic_start = 0.0, potential_start = 0.0, recoverable_start = 0.0;
   std::array<double, 2> momentum_start{};
   double first_dt = 0.0;                      ///< [s]
+  std::int64_t updates = 0;                   ///< sum over the steps of the points in them
   std::vector<std::array<double, 2>> recent;  ///< (time, front) of the rest window
 };
 

@@ -23,7 +23,7 @@ void apply(Contact<Dim>& c, const WallPoint<Dim>& wall,
 /// One wall point's turn: the impulse that stops the soil from entering it, within the friction
 /// cone. Returns the size of the velocity correction [m/s].
 template <int Dim>
-double push(Contact<Dim>& c, std::int32_t p, bool slip,
+double push(Contact<Dim>& c, std::int32_t p, Hold hold,
             typename Contact<Dim>::Vector& held) noexcept {
   const WallPoint<Dim>& wall = c.walls[p];
   std::array<double, Dim> u{};
@@ -36,14 +36,15 @@ double push(Contact<Dim>& c, std::int32_t p, bool slip,
     wanted[d] = held[d] - u[d] * inverse;
     normal += wanted[d] * wall.normal[d];
   }
-  const double allowed = wall.holds ? normal : std::max(0.0, normal);
+  const bool both_ways = wall.holds || hold == Hold::fast;
+  const double allowed = both_ways ? normal : std::max(0.0, normal);
   double tangential = 0.0;
   for (int d = 0; d < Dim; ++d) {
     wanted[d] -= normal * wall.normal[d];
     tangential += wanted[d] * wanted[d];
   }
   tangential = std::sqrt(tangential);
-  const double most = wall.holds || slip ? 0.0 : wall.friction * allowed;
+  const double most = wall.holds || hold != Hold::contact ? 0.0 : wall.friction * allowed;
   const double keep = tangential > most ? most / tangential : 1.0;
   std::array<double, Dim> change;
   double size = 0.0;
@@ -60,7 +61,7 @@ double push(Contact<Dim>& c, std::int32_t p, bool slip,
 /// answer at once; the others are swept until the corrections are small, from the impulses as they
 /// are.
 template <int Dim>
-void solve(const std::vector<Node>& nodes, Contact<Dim>& c, double full_mass, bool slip,
+void solve(const std::vector<Node>& nodes, Contact<Dim>& c, double full_mass, Hold hold,
            std::vector<typename Contact<Dim>::Vector>& impulse) noexcept {
   using L = NodeLayout<Dim>;
   const double floor = kMassFloor * full_mass;
@@ -79,7 +80,9 @@ void solve(const std::vector<Node>& nodes, Contact<Dim>& c, double full_mass, bo
       if (e < wall.touching) touched = mobility;
     }
     c.mobility[p] = mobility;
-    if (touched > 0.0) {
+    double pushed = 0.0;
+    for (int d = 0; d < Dim; ++d) pushed += c.impulse[p][d] * wall.normal[d];
+    if (touched > 0.0 && (hold != Hold::fast || wall.holds || pushed > 0.0)) {
       c.active.push_back(static_cast<std::int32_t>(p));
       for (std::int32_t e = wall.first; e < wall.last; ++e) ++c.uses[c.node[e]];
     } else {
@@ -97,7 +100,7 @@ void solve(const std::vector<Node>& nodes, Contact<Dim>& c, double full_mass, bo
       apply(c, wall, impulse[p]);
     } else {
       impulse[p] = {};
-      push(c, p, slip, impulse[p]);
+      push(c, p, hold, impulse[p]);
     }
   }
   const auto n = static_cast<std::int32_t>(c.coupled.size());
@@ -106,7 +109,7 @@ void solve(const std::vector<Node>& nodes, Contact<Dim>& c, double full_mass, bo
     double largest = 0.0;
     for (std::int32_t i = 0; i < n; ++i) {
       const std::int32_t p = c.coupled[count % 2 == 0 ? i : n - 1 - i];
-      largest = std::max(largest, push(c, p, slip, impulse[p]));
+      largest = std::max(largest, push(c, p, hold, impulse[p]));
     }
     if (count == 0)
       for (const std::int32_t p : c.coupled)
@@ -121,9 +124,9 @@ void solve(const std::vector<Node>& nodes, Contact<Dim>& c, double full_mass, bo
 
 template <int Dim>
 void push_out(const std::vector<Node>& nodes, Contact<Dim>& c, double full_mass,
-              bool slip) noexcept {
+              Hold hold) noexcept {
   std::fill(c.fresh.begin(), c.fresh.end(), typename Contact<Dim>::Vector{});
-  solve(nodes, c, full_mass, slip, c.fresh);
+  solve(nodes, c, full_mass, hold, c.fresh);
 }
 
 namespace {
@@ -140,10 +143,12 @@ void take_back_damping(Grid<Dim>& grid, const Contact<Dim>& c, const MomentumSet
     for (int d = 0; d < Dim; ++d) {
       const double old = q[L::momentum + d], before = old - q[L::force + d];
       const double total = m * q[L::force + d] / s.dt, weight = m * s.gravity[d];
+      const double load = load_on<Dim>(q, d);
       const double pull = total / (1.0 - std::copysign(s.cundall, total * before));
       const double change = s.dt * (pull - total) / m;
-      work.internal_end += s.dt * (pull - weight) * change;
+      work.internal_end += s.dt * (pull - weight - load) * change;
       work.gravity += 0.5 * s.dt * weight * change;
+      work.load += 0.5 * s.dt * load * change;
       work.damping -= 0.5 * s.dt * (total - pull) * (before + old);
       work.boundary_impulse[d] -= s.dt * (total - pull);
       q[L::momentum + d] += change;
@@ -160,7 +165,7 @@ GridWork<Dim> hold_at_walls(Grid<Dim>& grid, Contact<Dim>& c, const MomentumSett
   using L = NodeLayout<Dim>;
   GridWork<Dim> work;
   if (s.cundall > 0.0) take_back_damping(grid, c, s, kMassFloor * full_mass, work);
-  solve(grid.nodes, c, full_mass, false, c.impulse);
+  solve(grid.nodes, c, full_mass, Hold::contact, c.impulse);
   for (std::size_t k = 0; k < c.nodes.size(); ++k) {
     if (!(c.inverse_mass[k] > 0.0)) continue;
     auto& q = grid.nodes[c.nodes[k]].q;
@@ -168,10 +173,12 @@ GridWork<Dim> hold_at_walls(Grid<Dim>& grid, Contact<Dim>& c, const MomentumSett
     for (int d = 0; d < Dim; ++d) {
       const double free = q[L::momentum + d], before = free - q[L::force + d];
       const double held = c.velocity[k][d], weight = m * s.gravity[d];
+      const double load = load_on<Dim>(q, d);
       const double drag = damping_force(s.cundall, m * (held - before) / s.dt, before);
       const double after = held + s.dt * drag / m, change = after - free;
-      work.internal_end += (m * q[L::force + d] - s.dt * weight) * change;
+      work.internal_end += (m * q[L::force + d] - s.dt * (weight + load)) * change;
       work.gravity += 0.5 * s.dt * weight * change;
+      work.load += 0.5 * s.dt * load * change;
       work.damping += 0.5 * s.dt * drag * (before + after);
       work.boundary += 0.5 * m * (held - free) * (before + after);
       work.boundary_impulse[d] += m * change;
@@ -183,7 +190,7 @@ GridWork<Dim> hold_at_walls(Grid<Dim>& grid, Contact<Dim>& c, const MomentumSett
 }
 
 #define FLOWSLIDE_CONTACT(DIM)                                                                  \
-  template void push_out<DIM>(const std::vector<Node>&, Contact<DIM>&, double, bool) noexcept;  \
+  template void push_out<DIM>(const std::vector<Node>&, Contact<DIM>&, double, Hold) noexcept;  \
   template GridWork<DIM> hold_at_walls<DIM>(Grid<DIM>&, Contact<DIM>&, const MomentumSettings&, \
                                             double) noexcept;
 FLOWSLIDE_CONTACT(2)

@@ -38,6 +38,13 @@ struct Contact {
   std::vector<std::int32_t> coupled;  ///< those of them that share nodes with others
 };
 
+/// What wall points do to velocities that are not those of the momentum step.
+enum class Hold {
+  contact,  ///< push, with Coulomb friction
+  slip,     ///< push, without friction
+  fast,     ///< hold both ways, without friction, where the last step had an impulse
+};
+
 /// Places wall points where the ground and the walls cross the lines of the grid and links them to
 /// the active blocks.
 template <int Dim, class Basis>
@@ -45,10 +52,10 @@ void place_walls(const Grid<Dim>& grid, const Ground& ground, const Rollers& rol
                  Contact<Dim>& contact);
 
 /// Finds velocities of the contact nodes that enter no wall point, from the velocities and masses
-/// in `nodes`; they are left in contact.velocity. Without friction where `slip`.
+/// in `nodes`; they are left in contact.velocity.
 template <int Dim>
 void push_out(const std::vector<Node>& nodes, Contact<Dim>& contact, double full_mass,
-              bool slip) noexcept;
+              Hold hold) noexcept;
 
 /// Corrects the velocities after the momentum step; returns the work of all forces along the
 /// corrections.

@@ -103,13 +103,15 @@ FlowFacts run_flow(const ParticleSet& particles, const FlowConfig& config, const
 
   const Clock::time_point start = Clock::now();
   Clock::time_point last_checkpoint = start, last_report = start;
-  const std::int64_t first_step = s.step;
+  const std::int64_t first_updates = run.updates;
   facts.last.time = s.time;
   for (bool done = false; !done;) {
     mpm::advance(s, scratch);
     check_step(s, run.first_dt);
-    done = s.time >= config.end;
+    run.updates += std::ssize(s.points.mass);
+    done = s.time >= config.end || s.points.size() == 0;
     if (s.time >= run.next_sample || done) {
+      if (mpm::any_beyond(s.outlet, s.points)) mpm::prepare(s, scratch, true);
       facts.last = mpm::sample(s, reference, counts, front_scratch);
       history->append(facts.last);
       ++run.samples;
@@ -118,7 +120,7 @@ FlowFacts run_flow(const ParticleSet& particles, const FlowConfig& config, const
       run.recent.push_back({s.time, facts.last.front});
       std::erase_if(run.recent, [&](const auto& r) { return r[0] < s.time - config.rest.window; });
       facts.at_rest = at_rest(run, facts.last, config.rest);
-      done = done || facts.at_rest;
+      done = done || facts.at_rest || s.points.size() == 0;
     }
     if (s.time >= run.next_frame || done) store();
     if (seconds_since(last_report) > kReportSeconds || done) {
@@ -142,9 +144,8 @@ FlowFacts run_flow(const ParticleSet& particles, const FlowConfig& config, const
   std::filesystem::remove(paths.checkpoint);
   facts.end_time = s.time;
   facts.steps = s.step;
-  facts.point_updates = static_cast<double>(s.step) * static_cast<double>(s.points.size());
-  facts.updates_this_call =
-      static_cast<double>(s.step - first_step) * static_cast<double>(s.points.size());
+  facts.point_updates = static_cast<double>(run.updates);
+  facts.updates_this_call = static_cast<double>(run.updates - first_updates);
   return facts;
 }
 

@@ -15,15 +15,15 @@ struct FlowPaths {
 
 struct FlowFacts {
   double end_time = 0.0;  ///< simulated time reached [s]
-  bool at_rest = false;   ///< false: stopped by `end`
+  bool at_rest = false;   ///< false: stopped by `end`, or no point was left
   std::int64_t steps = 0;
-  double point_updates = 0.0;  ///< steps x points
+  double point_updates = 0.0;  ///< sum over the steps of the points in them
   double step_seconds = 0.0;   ///< wall time of this call spent in steps [s]
   double updates_this_call = 0.0;
   MpmSample last;  ///< the final row of the time series
 };
 
-/// Runs to rest or to config.end. With an existing checkpoint of the same run, continues from it:
+/// Runs to rest, to config.end, or until all points have left. With an existing checkpoint of the same run, continues from it:
 /// the history is then bit for bit that of an uninterrupted run. Throws InputError for particles
 /// the solver cannot start from, NumericsError naming step, time and particle, FileError,
 /// Interrupted.

@@ -11,6 +11,13 @@ void check(const FlowConfig& c) {
         "ground.surface: point {} lies left of point {} (x must not decrease) sort the points by x",
         i + 1, i);
   }
+  validate(!c.outlet.left || !c.outlet.right || *c.outlet.left < *c.outlet.right,
+           "outlet.left is not left of outlet.right (nothing lies between them) swap them");
+  validate(!c.outlet.bottom || !c.outlet.top || *c.outlet.bottom < *c.outlet.top,
+           "outlet.bottom is not below outlet.top (nothing lies between them) swap them");
+  for (std::size_t i = 0; i < c.tractions.size(); ++i)
+    validate(c.tractions[i].from != c.tractions[i].to,
+             "tractions: stretch {} has no length (it carries nothing) give its two ends", i + 1);
   validate(!c.left_roller || !c.right_roller || *c.left_roller < *c.right_roller,
            "left_roller is not left of right_roller (nothing lies between them) swap them");
   validate(!c.side_rollers || (*c.side_rollers)[0] < (*c.side_rollers)[1],
@@ -43,6 +50,25 @@ void Schema<GroundSettings>::describe(FieldVisitor& v, GroundSettings& c) {
   v.quantity("friction", c.friction, Dim::none, {.min = 0.0}, "Coulomb friction coefficient");
 }
 
+void Schema<OutletSettings>::describe(FieldVisitor& v, OutletSettings& c) {
+  v.quantity("left", c.left, Dim::length, {}, "points with smaller x leave");
+  v.quantity("right", c.right, Dim::length, {},
+             "points with larger x leave; the runout counts them where they left");
+  v.quantity("bottom", c.bottom, Dim::length, {}, "points below this y leave");
+  v.quantity("top", c.top, Dim::length, {}, "points above this y leave");
+}
+
+void Schema<TractionSettings>::describe(FieldVisitor& v, TractionSettings& c) {
+  v.tuple("from", c.from, Dim::length, "one end of the stretch, on the surface at the start");
+  v.tuple("to", c.to, Dim::length,
+          "the other end; soil lies on the right of the way from the first to the second");
+  v.quantity("pressure", c.pressure, Dim::stress, {}, "traction at right angles, into the soil");
+  v.quantity("shear", c.shear, Dim::stress, {}, "traction along the way");
+  v.quantity("begin", c.begin, Dim::time, {}, "until then there is no traction");
+  v.quantity("ramp", c.ramp, Dim::time, {.min = 0.0},
+             "time over which it rises to its full amount; 0: at once");
+}
+
 void Schema<FlowConfig>::describe(FieldVisitor& v, FlowConfig& c) {
   static constexpr std::array<std::string_view, 4> bases{"linear", "gimp", "quadratic", "cubic"};
   static constexpr std::array<std::string_view, 6> transfers{"apic", "tpic", "aflip",
@@ -56,6 +82,8 @@ void Schema<FlowConfig>::describe(FieldVisitor& v, FlowConfig& c) {
   v.quantity("end", c.end, Dim::time, {.above = 0.0},
              "latest end; the run stops earlier when all is at rest");
   v.group("ground", c.ground, Schema<GroundSettings>::doc);
+  v.group("outlet", c.outlet, Schema<OutletSettings>::doc);
+  v.list("tractions", c.tractions, Schema<TractionSettings>::doc);
   v.quantity("left_roller", c.left_roller, Dim::length, {},
              "x of a vertical frictionless wall upstream");
   v.quantity("right_roller", c.right_roller, Dim::length, {},

@@ -28,12 +28,25 @@ struct GroundSettings {
   double friction = 0.70;                                   ///< [-]
 };
 
+struct OutletSettings {
+  std::optional<double> left, right, bottom, top;  ///< [m]
+};
+
+struct TractionSettings {
+  std::array<double, 2> from{kUnset, kUnset}, to{kUnset, kUnset};  ///< [m]
+  double pressure = kUnset;                                        ///< [Pa]
+  double shear = 0.0;                                              ///< [Pa]
+  double begin = 0.0, ramp = 0.0;                                  ///< [s]
+};
+
 struct FlowConfig {
   double cell = kUnset;                 ///< [m]
   std::array<double, 2> grid_origin{};  ///< [m]
   double toe = kUnset;                  ///< x [m]
   double end = kUnset;                  ///< [s]
   GroundSettings ground;
+  OutletSettings outlet;
+  std::vector<TractionSettings> tractions;
   std::optional<double> left_roller;   ///< x [m]
   std::optional<double> right_roller;  ///< x [m]
   /// Rollers at two y [m] in three dimensions; not for workflows, which run plane strain.
@@ -74,6 +87,21 @@ template <>
 struct Schema<GroundSettings> {
   static constexpr std::string_view doc = "The rigid ground under the flow.";
   static void describe(FieldVisitor& v, GroundSettings& c);
+};
+template <>
+struct Schema<OutletSettings> {
+  static constexpr std::string_view doc =
+      "Edges beyond which points leave the computation; their mass, momentum and energy are "
+      "accounted for.";
+  static void describe(FieldVisitor& v, OutletSettings& c);
+};
+template <>
+struct Schema<TractionSettings> {
+  static constexpr std::string_view doc =
+      "Stretches of the surface under load, such as a footing or water on it; the load stays on "
+      "the "
+      "points it was put on and keeps its amount and direction.";
+  static void describe(FieldVisitor& v, TractionSettings& c);
 };
 template <>
 struct Schema<FlowConfig> {

@@ -31,6 +31,8 @@ struct NodeLayout {
   static constexpr int mass = 0;
   static constexpr int momentum = 1;     ///< Dim entries; velocity v* after the momentum step
   static constexpr int force = 1 + Dim;  ///< Dim entries; internal force [N], v* - v afterwards
+  /// Dim entries: force of tractions [N]. Only plane strain has room for them.
+  static constexpr int load = Dim == 2 ? 5 : -1;
 };
 
 template <int Dim>

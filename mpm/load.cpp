@@ -8,6 +8,9 @@ namespace {
 /// F-bar pays where pressure would lock: K/G at nu = 0.4 and above.
 constexpr double kAverageRatio = 4.6;
 
+/// Depth over which a traction is handed to the points [cells]: whole rows of any lattice.
+constexpr double kTractionDepth = 2.0;
+
 SolverMaterial solver_material(const MaterialSpec& spec, const FlowConfig& config) {
   const double scale =
       config.softening.regularise ? config.cell / config.softening.reference_length : 1.0;
@@ -81,6 +84,10 @@ Simulation<Dim> make_simulation(const ParticleSet& particles, const FlowConfig& 
     s.ground.height.push_back(point[1]);
   }
   s.ground.friction = config.ground.friction;
+  s.outlet.low.front() = config.outlet.left.value_or(s.outlet.low.front());
+  s.outlet.high.front() = config.outlet.right.value_or(s.outlet.high.front());
+  s.outlet.low.back() = config.outlet.bottom.value_or(s.outlet.low.back());
+  s.outlet.high.back() = config.outlet.top.value_or(s.outlet.high.back());
   if (config.left_roller) s.rollers.left = *config.left_roller;
   if (config.right_roller) s.rollers.right = *config.right_roller;
   if (config.side_rollers) {
@@ -94,6 +101,7 @@ Simulation<Dim> make_simulation(const ParticleSet& particles, const FlowConfig& 
     sources.push_back(state_source(spec, particles));
   }
 
+  s.largest_density.assign(s.materials.size(), 0.0);
   const std::size_t n = particles.size();
   Points<Dim>& p = s.points;
   visit_arrays(p, [&](auto& array) { array.assign(n, {}); });
@@ -109,6 +117,8 @@ Simulation<Dim> make_simulation(const ParticleSet& particles, const FlowConfig& 
     p.material[i] = particles.material[i];
     p.index[i] = static_cast<std::int32_t>(i);
     density = std::max(density, p.mass[i] / p.volume[i]);
+    double& largest = s.largest_density[p.material[i]];
+    largest = std::max(largest, p.mass[i] / p.volume[i]);
     const StateSource& source = sources[p.material[i]];
     for (std::size_t k = 0; k < source.names.size(); ++k) {
       const double value = source.arrays[k] ? (*source.arrays[k])[i] : source.defaults[k];
@@ -124,12 +134,32 @@ Simulation<Dim> make_simulation(const ParticleSet& particles, const FlowConfig& 
              "out) lower "
              "ground.surface or raise the transfer box",
              particles.id[i], p.x[0][i], p.x[Dim - 1][i], depth);
+    for (int d = 0; d < Dim; ++d)
+      validate(p.x[d][i] >= s.outlet.low[d] && p.x[d][i] <= s.outlet.high[d],
+               "particle {} at ({:.2f}, {:.2f}) lies beyond the outlet (it would leave before the "
+               "run begins) move the outlet or the transfer box",
+               particles.id[i], p.x[0][i], p.x[Dim - 1][i]);
     const double modulus =
         wave_modulus(s.materials[p.material[i]].elastic, s.averages(p.material[i]));
     s.last.max_wave2 = std::max(s.last.max_wave2, modulus * p.volume[i] / p.mass[i]);
     double speed2 = 0.0;
     for (const auto& v : p.v) speed2 += v[i] * v[i];
     s.last.max_speed2 = std::max(s.last.max_speed2, speed2);
+  }
+  if constexpr (Dim == 2) {
+    for (std::size_t i = 0; i < config.tractions.size(); ++i) {
+      const TractionSettings& t = config.tractions[i];
+      const std::size_t carriers =
+          add_traction({t.from, t.to, t.pressure, t.shear, t.begin, t.ramp},
+                       kTractionDepth * config.cell, p, s.loads);
+      validate(carriers > 0,
+               "tractions: no particle lies within {} cells to the right of stretch {} (nothing "
+               "carries it) put it on the surface of the soil, which lies on the right of the way "
+               "from `from` to `to`",
+               kTractionDepth, i + 1);
+    }
+  } else {
+    validate(config.tractions.empty(), "tractions act in plane strain (this run has 3 dimensions)");
   }
   s.full_mass = density * std::pow(config.cell, Dim);
   return s;
@@ -139,8 +169,7 @@ template Simulation<2> make_simulation<2>(const ParticleSet&, const FlowConfig&)
 template Simulation<3> make_simulation<3>(const ParticleSet&, const FlowConfig&);
 
 void store_frame(const Simulation<2>& s, MpmFrame& frame) {
-  const Points<2>& p = s.points;
-  const std::size_t n = p.size();
+  const std::size_t n = s.points.size() + s.gone.size();
   frame.time = s.time;
   frame.position.resize(n);
   frame.velocity.resize(n);
@@ -148,12 +177,12 @@ void store_frame(const Simulation<2>& s, MpmFrame& frame) {
   frame.volume.resize(n);
   frame.plastic_strain.resize(n);
   frame.strength.resize(n);
-  for (std::size_t q = 0; q < n; ++q) {
+  const auto store = [&](const Points<2>& p, std::size_t q, double volume) {
     const auto i = static_cast<std::size_t>(p.index[q]);
     frame.position[i] = {p.x[0][q], p.x[1][q], 0.0};
     frame.velocity[i] = {p.v[0][q], p.v[1][q], 0.0};
     frame.stress[i] = {p.sigma[0][q], p.sigma[1][q], p.sigma[2][q], p.sigma[3][q], 0.0, 0.0};
-    frame.volume[i] = p.volume[q];
+    frame.volume[i] = volume;
     std::visit(
         [&]<class M>(const Typed<M>& law) {
           constexpr std::size_t states = M::state_names.size();
@@ -167,7 +196,9 @@ void store_frame(const Simulation<2>& s, MpmFrame& frame) {
           frame.strength[i] = M::present_strength(law.constants, state);
         },
         s.materials[p.material[q]].law);
-  }
+  };
+  for (std::size_t q = 0; q < s.points.size(); ++q) store(s.points, q, s.points.volume[q]);
+  for (std::size_t q = 0; q < s.gone.size(); ++q) store(s.gone, q, 0.0);
 }
 
 }  // namespace flowslide::mpm

@@ -12,18 +12,22 @@ struct GridWork {
   double internal_start = 0.0;                 ///< dt sum f.v with velocities before the step [J]
   double internal_end = 0.0;                   ///< dt sum f.v* with velocities after it [J]
   double gravity = 0.0;                        ///< work of gravity [J]
+  double load = 0.0;                           ///< work of tractions [J]
   double damping = 0.0;                        ///< work of artificial damping, <= 0 [J]
   double boundary = 0.0;                       ///< work of boundary impulses, <= 0 [J]
   std::array<double, Dim> gravity_impulse{};   ///< [N s]
+  std::array<double, Dim> load_impulse{};      ///< of tractions [N s]
   std::array<double, Dim> boundary_impulse{};  ///< impulse of boundaries and damping [N s]
   void add(const GridWork& o) {
     internal_start += o.internal_start;
     internal_end += o.internal_end;
     gravity += o.gravity;
+    load += o.load;
     damping += o.damping;
     boundary += o.boundary;
     for (int d = 0; d < Dim; ++d) {
       gravity_impulse[d] += o.gravity_impulse[d];
+      load_impulse[d] += o.load_impulse[d];
       boundary_impulse[d] += o.boundary_impulse[d];
     }
   }
@@ -44,8 +48,18 @@ inline double damping_force(double factor, double force, double velocity) noexce
   return factor == 0.0 ? 0.0 : -factor * std::copysign(std::abs(force), velocity);
 }
 
-/// Velocities of a block's nodes after the step, and their change in place of the force.
+/// Force of tractions on a node [N].
 template <int Dim>
+double load_on(const std::array<double, 8>& q, int d) noexcept {
+  if constexpr (NodeLayout<Dim>::load > 0)
+    return q[NodeLayout<Dim>::load + d];
+  else
+    return 0.0;
+}
+
+/// Velocities of a block's nodes after the step, and their change in place of the force. Without
+/// tractions where not `kLoaded`.
+template <int Dim, bool kLoaded>
 GridWork<Dim> update_momentum(Grid<Dim>& grid, std::size_t block, const MomentumSettings& s,
                               double full_mass) noexcept {
   using L = NodeLayout<Dim>;
@@ -64,12 +78,18 @@ GridWork<Dim> update_momentum(Grid<Dim>& grid, std::size_t block, const Momentum
       const double v = q[L::momentum + d] * inverse;
       const double f = q[L::force + d];
       const double weight = m * s.gravity[d];
-      const double drag = damping_force(s.cundall, f + weight, v);
-      const double v_new = v + s.dt * (f + weight + drag) * inverse;
+      const double load = kLoaded ? load_on<Dim>(q, d) : 0.0;
+      const double drag = damping_force(s.cundall, kLoaded ? f + weight + load : f + weight, v);
+      const double outer = kLoaded ? weight + load : weight;
+      const double v_new = v + s.dt * (f + outer + drag) * inverse;
       const double path = 0.5 * s.dt * (v + v_new);
       work.internal_start += s.dt * f * v;
       work.internal_end += s.dt * f * v_new;
       work.gravity += weight * path;
+      if constexpr (kLoaded) {
+        work.load += load * path;
+        work.load_impulse[d] += load * s.dt;
+      }
       work.damping += drag * path;
       work.gravity_impulse[d] += weight * s.dt;
       work.boundary_impulse[d] += (f + drag) * s.dt;

@@ -28,19 +28,28 @@ struct Points {
   [[nodiscard]] std::size_t size() const { return mass.size(); }
 };
 
-/// Calls f(array) for every per-point array: the one list that sorting, checkpoints and resizing
-/// use.
+/// Calls f(array of p, the same of q) for every per-point array: the one list that sorting,
+/// checkpoints and resizing use.
+template <class P, class Q, class F>
+void visit_arrays(P& p, Q& q, F&& f) {
+  const auto each = [&](auto& a, auto& b) {
+    for (std::size_t k = 0; k < a.size(); ++k) f(a[k], b[k]);
+  };
+  each(p.x, q.x);
+  each(p.v, q.v);
+  each(p.c, q.c);
+  each(p.sigma, q.sigma);
+  f(p.mass, q.mass);
+  f(p.volume, q.volume);
+  each(p.state, q.state);
+  f(p.material, q.material);
+  f(p.index, q.index);
+}
+
+/// Calls f(array) for every per-point array.
 template <class P, class F>
 void visit_arrays(P& p, F&& f) {
-  for (auto& a : p.x) f(a);
-  for (auto& a : p.v) f(a);
-  for (auto& a : p.c) f(a);
-  for (auto& a : p.sigma) f(a);
-  f(p.mass);
-  f(p.volume);
-  for (auto& a : p.state) f(a);
-  f(p.material);
-  f(p.index);
+  visit_arrays(p, p, [&](auto& array, auto&) { f(array); });
 }
 
 }  // namespace flowslide::mpm

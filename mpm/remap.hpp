@@ -37,16 +37,30 @@ void map_velocities(Simulation<Dim>& s, StepScratch<Dim>& scratch, int thread) {
   }
 #pragma omp single
   {
-    push_out(nodes, s.contact, s.full_mass, false);
+    push_out(nodes, s.contact, s.full_mass, Hold::contact);
     for (std::size_t k = 0; k < s.contact.nodes.size(); ++k)
       for (int d = 0; d < Dim; ++d)
         nodes[s.contact.nodes[k]].q[L::momentum + d] = s.contact.velocity[k][d];
   }
 }
 
+/// Corrects the velocities in `nodes` at the walls; the impulses count in `work`.
+template <int Dim>
+void keep_to_walls(std::vector<Node>& nodes, Simulation<Dim>& s, Hold hold, GridWork<Dim>& work) {
+  using L = NodeLayout<Dim>;
+  push_out(nodes, s.contact, s.full_mass, hold);
+  for (std::size_t k = 0; k < s.contact.nodes.size(); ++k) {
+    auto& q = nodes[s.contact.nodes[k]].q;
+    for (int d = 0; d < Dim; ++d) {
+      work.boundary_impulse[d] += q[L::mass] * (s.contact.velocity[k][d] - q[L::momentum + d]);
+      q[L::momentum + d] = s.contact.velocity[k][d];
+    }
+  }
+}
+
 /// Turns the velocities of grid.nodes, found with the lumped mass m, into
-/// v^(k) = sum_{j<k} (I - P)^j v with P v = m^-1 sum_p w m_p sum w v (Nairn & Hammerquist 2021).
-/// Momentum stays: the sum of m (I - P) v is zero.
+/// v^(k) = sum_{j<k} (Q (I - P))^j v with P v = m^-1 sum_p w m_p sum w v (Nairn & Hammerquist 2021)
+/// and Q the walls: every term keeps to them by itself. docs/theory/mpm.md
 template <int Dim, class Basis>
 void approach_full_mass(Simulation<Dim>& s, StepScratch<Dim>& scratch, int thread) {
   using L = NodeLayout<Dim>;
@@ -55,8 +69,7 @@ void approach_full_mass(Simulation<Dim>& s, StepScratch<Dim>& scratch, int threa
   TileScratch<Dim>& mine = scratch.tile[thread];
   const double floor = kMassFloor * s.full_mass;
 #pragma omp for schedule(static)
-  for (std::int32_t b = 0; b < blocks * kBlockNodes<Dim>; ++b)
-    for (int d = 0; d < Dim; ++d) rest[b].q[L::momentum + d] = s.grid.nodes[b].q[L::momentum + d];
+  for (std::int32_t b = 0; b < blocks * kBlockNodes<Dim>; ++b) rest[b] = s.grid.nodes[b];
   for (int term = 1; term < s.settings.fmpm_order; ++term) {
     take_turns(scratch.groups, thread, [&](std::int32_t i) {
       const Tile<Dim>& tile = s.tiling.tiles[i];
@@ -73,24 +86,19 @@ void approach_full_mass(Simulation<Dim>& s, StepScratch<Dim>& scratch, int threa
         const double inverse = m > floor ? 1.0 / m : 0.0;
         for (int d = 0; d < Dim; ++d) {
           double& r = rest[n].q[L::momentum + d];
-          r -= mapped[n].q[L::momentum + d] * inverse;
-          s.grid.nodes[n].q[L::momentum + d] += m > floor ? r : 0.0;
+          r = m > floor ? r - mapped[n].q[L::momentum + d] * inverse : 0.0;
         }
       }
     }
+#pragma omp single
+    keep_to_walls(rest, s, Hold::fast, scratch.contact_work);
+#pragma omp for schedule(static)
+    for (std::int32_t b = 0; b < blocks * kBlockNodes<Dim>; ++b)
+      for (int d = 0; d < Dim; ++d)
+        s.grid.nodes[b].q[L::momentum + d] += rest[b].q[L::momentum + d];
   }
 #pragma omp single
-  {
-    push_out(s.grid.nodes, s.contact, s.full_mass, true);
-    for (std::size_t k = 0; k < s.contact.nodes.size(); ++k) {
-      auto& q = s.grid.nodes[s.contact.nodes[k]].q;
-      for (int d = 0; d < Dim; ++d) {
-        scratch.contact_work.boundary_impulse[d] +=
-            q[L::mass] * (s.contact.velocity[k][d] - q[L::momentum + d]);
-        q[L::momentum + d] = s.contact.velocity[k][d];
-      }
-    }
-  }
+  keep_to_walls(s.grid.nodes, s, Hold::slip, scratch.contact_work);
 }
 
 }  // namespace flowslide::mpm

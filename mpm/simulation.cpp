@@ -26,6 +26,41 @@ double step_bound(const StepSettings& s) {
   return 2.0 * s.fmpm_order * Basis::gradient_bound;
 }
 
+/// The affine field of debris: points that have opened so far that their neighbours, parted in one
+/// direction, share no node with them. Nothing tells such a point that the soil around it thins, so
+/// its rate of deformation would stay and its volume grow exponentially. As in free flight it falls
+/// with time, D' = -D^2; the spin stays, and with it the angular momentum.
+template <int Dim, class Basis>
+void thin_debris(Simulation<Dim>& s) {
+  const double since = s.time - s.binned;
+  s.binned = s.time;
+  if (!(since > 0.0)) return;
+  Points<Dim>& p = s.points;
+  const double reach = Basis::nodes * s.grid.h;
+  for (std::size_t q = 0; q < p.size(); ++q) {
+    // V > reach L^(Dim-1), with L^Dim the point's volume without gaps.
+    const double full = p.mass[q] / s.largest_density[p.material[q]];
+    const double open = p.volume[q] / full, widest = reach * reach / full;
+    if constexpr (Dim == 2) {
+      if (!(open * open > widest)) continue;
+    } else {
+      if (!(open * open * open > widest * reach)) continue;
+    }
+    double trace = 0.0, square = 0.0;
+    std::array<double, Dim * Dim> rate;
+    for (int d = 0; d < Dim; ++d) {
+      trace += p.c[(Dim + 1) * d][q];
+      for (int e = 0; e < Dim; ++e) {
+        rate[Dim * d + e] = 0.5 * (p.c[Dim * d + e][q] + p.c[Dim * e + d][q]);
+        square += rate[Dim * d + e] * rate[Dim * d + e];
+      }
+    }
+    if (!(trace > 0.0)) continue;
+    const double lost = 1.0 - 1.0 / (1.0 + since * std::sqrt(square));
+    for (int i = 0; i < Dim * Dim; ++i) p.c[i][q] -= lost * rate[i];
+  }
+}
+
 /// What a tile costs beside its points, in points.
 constexpr double kTileWeight = 30.0;
 
@@ -69,8 +104,11 @@ double stable_step(const Simulation<Dim>& s) {
 template <int Dim>
 void prepare(Simulation<Dim>& s, StepScratch<Dim>& scratch, bool rebin) {
   if (rebin) {
-    const double shift =
-        visit_basis(s.settings.basis, []<class Basis>(Basis) { return Basis::shift; });
+    let_out(s.outlet, s.points, s.gone);
+    const double shift = visit_basis(s.settings.basis, [&]<class Basis>(Basis) {
+      thin_debris<Dim, Basis>(s);
+      return Basis::shift;
+    });
     bin_points<Dim>(s.points, s.grid, s.tiling, shift, scratch.binning);
     s.drift = 0.0;
   } else {
@@ -80,6 +118,7 @@ void prepare(Simulation<Dim>& s, StepScratch<Dim>& scratch, bool rebin) {
     place_walls<Dim, Basis>(s.grid, s.ground, s.rollers, s.contact);
     scratch.windows.resize(s.tiling.tiles.size() * kWindowNodes<Dim, Basis>);
   });
+  find_points(s.loads, s.points, s.tiling);
   scratch.span.resize(s.points.size() + Pack::lanes);
   scratch.scattered = false;
   visit_basis(s.settings.basis, [&]<class Basis>(Basis) { group_tiles<Dim, Basis>(s, scratch); });

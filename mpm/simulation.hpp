@@ -2,8 +2,10 @@
 #include "mpm/binning.hpp"
 #include "mpm/contact.hpp"
 #include "mpm/momentum.hpp"
+#include "mpm/outlet.hpp"
 #include "mpm/shares.hpp"
 #include "mpm/stress.hpp"
+#include "mpm/traction.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -37,19 +39,25 @@ struct Balance {
 template <int Dim>
 struct Simulation {
   Points<Dim> points;
+  Points<Dim> gone;  ///< those that left through the outlet, as they left, in order of leaving
   std::vector<SolverMaterial> materials;
   Grid<Dim> grid;
   Tiling<Dim> tiling;
   Ground ground;
   Rollers rollers;
+  Outlet<Dim> outlet;
+  std::vector<Load<Dim>> loads;  ///< in order of their points' index
   Contact<Dim> contact;
   StepSettings settings;
   double full_mass = 0.0;  ///< mass of a full cell [kg], the scale of the mass floor
+  /// Per material, of its points at the start [kg/m3]; 0: its points never count as debris.
+  std::vector<double> largest_density;
 
   double time = 0.0;  ///< [s]
   double dt = 0.0;    ///< last step [s]
   std::int64_t step = 0;
-  double drift = 0.0;  ///< bound of what any point moved since the points were binned [m]
+  double drift = 0.0;   ///< bound of what any point moved since the points were binned [m]
+  double binned = 0.0;  ///< when that was [s]
   StressWork last;     ///< of the last step; decides the next dt
   Balance<Dim> balance;
 
@@ -82,8 +90,9 @@ struct StepScratch {
 template <int Dim>
 double stable_step(const Simulation<Dim>& s);
 
-/// Brings tiles and boundary lists up to date with the points; sizes the scratch. Also called after
-/// a checkpoint was read, then with tiles as they were (`rebin` false).
+/// Brings tiles and boundary lists up to date with the points, lets those beyond the outlet go, and
+/// sizes the scratch. Also called after a checkpoint was read, then with tiles as they were
+/// (`rebin` false).
 template <int Dim>
 void prepare(Simulation<Dim>& s, StepScratch<Dim>& scratch, bool rebin);
 

@@ -37,6 +37,40 @@ void scatter_points(const Simulation<Dim>& s, std::int32_t i, StepScratch<Dim>& 
                                            s.grid, window_of<Dim, Basis>(scratch, i));
 }
 
+/// Tractions into the windows of the tiles their points are in.
+template <int Dim, class Basis>
+void add_loads(const Simulation<Dim>& s, StepScratch<Dim>& scratch) noexcept {
+  if constexpr (Dim == 2) {
+    constexpr int N = Basis::nodes, W = kLocalWidth<Dim, Basis>;
+    const double h = s.grid.h, now = s.time + 0.5 * s.dt;
+    for (const Load<Dim>& load : s.loads) {
+      const double share = std::clamp((now - load.begin) / load.ramp, 0.0, 1.0);
+      if (load.point < 0 || share == 0.0) continue;
+      const Tile<Dim>& tile = s.tiling.tiles[load.tile];
+      double w[Dim][N], g[Dim][N];
+      int first[Dim];
+      for (int d = 0; d < Dim; ++d) {
+        const double x = (s.points.x[d][load.point] - s.grid.origin[d]) / h;
+        const double base = base_node<Basis>(x);
+        Basis::evaluate(x - base, w[d], g[d]);
+        first[d] = static_cast<int>(base) - (tile.block[d] * kBlockWidth<Dim> - 1);
+      }
+      NodeVector* window = window_of<Dim, Basis>(scratch, load.tile);
+      for (int j = 0; j < N; ++j) {
+        for (int i = 0; i < N; ++i) {
+          NodeVector& node = window[first[0] + i + W * (first[1] + j)];
+          const double weight = w[0][i] * w[1][j];
+          const double along =
+              (load.normal[0] * g[0][i] * w[1][j] + load.normal[1] * w[0][i] * g[1][j]) / h;
+          for (int d = 0; d < Dim; ++d)
+            node[NodeLayout<Dim>::load + d] +=
+                share * load.force[d] * (weight + load.above * along);
+        }
+      }
+    }
+  }
+}
+
 template <int Dim, class Basis>
 void gather_points(Simulation<Dim>& s, const Tile<Dim>& tile, double keep,
                    std::array<std::vector<double>, Dim>& moved, TileScratch<Dim>& mine) {
@@ -69,6 +103,7 @@ void step(Simulation<Dim>& s, StepScratch<Dim>& scratch) {
   // With musl positions stay until the new velocities have been mapped back.
   auto& moved = update == Update::musl ? scratch.moved : s.points.x;
   const int threads = static_cast<int>(scratch.tile.size());
+  const bool loaded = !s.loads.empty();
 
 #pragma omp parallel num_threads(threads)
   {
@@ -92,10 +127,15 @@ void step(Simulation<Dim>& s, StepScratch<Dim>& scratch) {
     if (!scratch.scattered)
       take_turns(scratch.groups, thread,
                  [&](std::int32_t i) { scatter_points<Dim, Basis>(s, i, scratch, mine); });
+    if (loaded) {
+#pragma omp single
+      add_loads<Dim, Basis>(s, scratch);
+    }
 #pragma omp for schedule(static)
     for (std::int32_t b = 0; b < blocks; ++b) {
       sum_windows<Dim, Basis>(s.tiling, scratch.windows.data(), b, s.grid.nodes.data());
-      scratch.grid_work[b] = update_momentum<Dim>(s.grid, b, momentum, s.full_mass);
+      scratch.grid_work[b] = loaded ? update_momentum<Dim, true>(s.grid, b, momentum, s.full_mass)
+                                    : update_momentum<Dim, false>(s.grid, b, momentum, s.full_mass);
     }
     // One thread sees to the walls while the others begin with the tiles that do not touch them.
 #pragma omp single nowait

@@ -122,6 +122,8 @@ void add_rest(ReportFacts& f, const std::vector<MpmSample>& samples, const Repor
     since = s->time;
   }
   if (samples.back().time - since >= config.rest_window) f.front_at_rest = since;
+  f.points_left = samples.back().points_left;
+  f.mass_left = samples.back().mass_left;
   f.energy_error = samples.back().energy_error;
   f.momentum_error = samples.back().momentum_error;
 }

@@ -55,6 +55,8 @@ struct ReportFacts {
   double volume_past_toe = 0.0;    ///< present volume beyond the toe [m3/m]
   double deepest_failed = kUnset;  ///< smallest undeformed y of a failed point [m]
   double deepest_failed_mass = kUnset;  ///< y below which mass_quantile of the failed mass lay [m]
+  double points_left = 0.0;             ///< that left the model through its outlet
+  double mass_left = 0.0;               ///< their mass [kg/m]
   double mass_error = 0.0;              ///< largest, relative
   double energy_error = 0.0;            ///< at the end, residual / work of gravity
   double momentum_error = 0.0;          ///< at the end, residual / impulse of gravity

@@ -42,6 +42,8 @@ std::string to_json(const ReportFacts& f) {
   j["volume_past_toe_m3_per_m"] = f.volume_past_toe;
   j["deepest_failed_y_m"] = f.deepest_failed;
   j["deepest_failed_mass_quantile_y_m"] = f.deepest_failed_mass;
+  j["points_left"] = f.points_left;
+  j["mass_left_kg_per_m"] = f.mass_left;
   j["mass_error"] = f.mass_error;
   j["energy_error"] = f.energy_error;
   j["momentum_error"] = f.momentum_error;

@@ -20,6 +20,16 @@ void warn_about_balances(ReportFacts& f, const ReportConfig& c) {
   warn("momentum", f.momentum_error, c.momentum_warning);
 }
 
+void warn_about_outlet(ReportFacts& f, const ParticleSet& p) {
+  if (!(f.points_left > 0.0)) return;
+  double mass = 0.0;
+  for (const double m : p.mass) mass += m;
+  f.warnings.push_back(fmt::format(
+      "{:.0f} points, {:.2g} % of the mass, left the model through its outlet. They count where "
+      "they left: the runout is a lower bound if they left downstream.",
+      f.points_left, 100.0 * f.mass_left / mass));
+}
+
 void warn_about_upstream_end(ReportFacts& f, const ParticleSet& p, const FinalState& end) {
   constexpr double margin = 5.0;  // point spacings
   double left = std::numeric_limits<double>::infinity();
@@ -48,6 +58,7 @@ void add_warnings(ReportFacts& f, const ParticleSet& p, const FinalState& end,
         "the flow stage.",
         f.duration, config.rest_kinetic));
   warn_about_balances(f, config);
+  warn_about_outlet(f, p);
   const MpmSample& last = samples.back();
   if (!(std::abs(last.front - f.front) <= config.rest_front))
     f.warnings.push_back(fmt::format(

@@ -103,6 +103,7 @@ std::string key_numbers(const ReportFacts& f, const ReportConfig& c) {
        {"deepest failed point, undeformed y", number(f.deepest_failed, 2, "m")},
        {fmt::format("the same leaving out {:g} % of the failed mass", 100.0 * c.mass_quantile),
         number(f.deepest_failed_mass, 2, "m")},
+       {"mass that left through the outlet", number(f.mass_left, 0, "kg/m")},
        {"mass error", fmt::format("{:.2e}", f.mass_error)},
        {"energy error (residual / work of gravity)", fmt::format("{:.2e}", f.energy_error)},
        {"momentum error (residual / impulse of gravity)",

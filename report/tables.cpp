@@ -26,7 +26,10 @@ constexpr std::array kAfterSpeed{SampleColumn{"max_speed_m_s", &MpmSample::max_s
                                  SampleColumn{"momentum_error", &MpmSample::momentum_error},
                                  SampleColumn{"mass_error", &MpmSample::mass_error},
                                  SampleColumn{"dt_s", &MpmSample::dt},
-                                 SampleColumn{"active_particles", &MpmSample::active_particles}};
+                                 SampleColumn{"active_particles", &MpmSample::active_particles},
+                                 SampleColumn{"points_left", &MpmSample::points_left},
+                                 SampleColumn{"mass_left_kg_per_m", &MpmSample::mass_left},
+                                 SampleColumn{"kinetic_left_J_per_m", &MpmSample::kinetic_left}};
 
 }  // namespace
 

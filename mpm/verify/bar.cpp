@@ -15,7 +15,7 @@ struct Swing {
   double energy_ratio;  ///< energy after ten periods over that at the start
 };
 
-Swing swing(int cells, Transfer transfer) {
+Swing swing(int cells, Transfer transfer, int order = 2) {
   const double h = kLength / cells, beta = kPi / (2.0 * kLength);
   const double period = 4.0 * kLength * std::sqrt(kDensity / kYoung);
   ParticleSet p;
@@ -27,6 +27,7 @@ Swing swing(int cells, Transfer transfer) {
   config.left_roller = 0.0;
   config.transfer = transfer;
   config.flip_share = 1.0;
+  config.fmpm_order = order;
   Trial trial(p, config);
   const PointSums<2> start = sum_points(trial.sim);
   const int crossings = 2 * kPeriods;
@@ -61,6 +62,12 @@ std::vector<Check> verify_bar(std::string_view name) {
     }
     checks.near(fmt::format("energy_flip_{}_cells", cells),
                 swing(cells, Transfer::flip).energy_ratio, 1.0, 0.01);
+  }
+  // Beside a wall a series that minds it only in its sum gains energy from three terms on.
+  for (const int order : {3, 4}) {
+    const Swing s = swing(25, Transfer::fmpm, order);
+    checks.error(fmt::format("period_error_fmpm{}_25_cells", order), s.period_error, 1e-3);
+    checks.near(fmt::format("energy_fmpm{}_25_cells", order), s.energy_ratio, 1.0, 0.01);
   }
   const double tpic = swing(50, Transfer::tpic).energy_ratio;
   checks.error("decay_per_period_tpic", 1.0 - std::pow(tpic, 0.5 / kPeriods), 0.01);

@@ -47,7 +47,7 @@ std::vector<VerificationCase> mpm_cases() {
       {"mpm/hard_impact", "a soft block hits the ground", true, verify_hit},
       {"mpm/hard_corner", "a block falls into a notch of two rough walls", true, verify_corner},
       {"mpm/hard_locking", "bending of soil that keeps its volume", false, verify_locking},
-      {"mpm/hard_leaving", "a point that leaves the grid is named", true,
+      {"mpm/hard_leaving", "points that leave by an outlet, fly apart, or leave the grid", true,
        verify_leaving},
       {"mpm/return_maps", "a million random states through every law", false, verify_return_maps},
   };

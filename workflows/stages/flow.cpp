@@ -17,7 +17,7 @@ void reopen_finished_history(const FlowPaths& paths) {
 struct FlowStage {
   static constexpr std::string_view name = "mpm.run";
   static constexpr std::string_view doc = "The runout, with the material point method.";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   static constexpr bool checkpoints = true;
   using Config = FlowConfig;
   struct Inputs {
@@ -42,6 +42,8 @@ struct FlowStage {
                                           {"flow_end_s", f.end_time},
                                           {"flow_at_rest", f.at_rest},
                                           {"flow_steps", f.steps},
+                                          {"points_left", f.last.points_left},
+                                          {"mass_left_kg_per_m", f.last.mass_left},
                                           {"flow_point_updates", f.point_updates},
                                           {"flow_point_updates_per_s", rate}};
     return {.facts = facts.dump(), .publish = {}};
