@@ -4,7 +4,6 @@
 
 #include <array>
 #include <fstream>
-#include <memory>
 #include <vector>
 
 #include <openssl/evp.h>
@@ -12,34 +11,34 @@
 namespace flowslide {
 namespace {
 
-class Digest {
- public:
-  Digest() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
-    if (!context_ || EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) != 1)
-      throw std::runtime_error("OpenSSL: cannot start SHA-256");
-  }
-  void add(const void* data, std::size_t size) {
-    if (EVP_DigestUpdate(context_.get(), data, size) != 1)
-      throw std::runtime_error("OpenSSL: SHA-256 failed");
-  }
-  std::string hex() {
-    std::array<unsigned char, EVP_MAX_MD_SIZE> bytes{};
-    unsigned int size = 0;
-    if (EVP_DigestFinal_ex(context_.get(), bytes.data(), &size) != 1)
-      throw std::runtime_error("OpenSSL: SHA-256 failed");
-    std::string text;
-    for (unsigned int i = 0; i < size; ++i) text += fmt::format("{:02x}", bytes[i]);
-    return text;
-  }
-
- private:
-  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
-};
+EVP_MD_CTX* context_of(void* p) { return static_cast<EVP_MD_CTX*>(p); }
 
 }  // namespace
 
+void Sha256::Free::operator()(void* context) const { EVP_MD_CTX_free(context_of(context)); }
+
+Sha256::Sha256() : context_(EVP_MD_CTX_new()) {
+  if (!context_ || EVP_DigestInit_ex(context_of(context_.get()), EVP_sha256(), nullptr) != 1)
+    throw std::runtime_error("OpenSSL: cannot start SHA-256");
+}
+
+void Sha256::add(const void* bytes, std::size_t size) {
+  if (EVP_DigestUpdate(context_of(context_.get()), bytes, size) != 1)
+    throw std::runtime_error("OpenSSL: SHA-256 failed");
+}
+
+std::string Sha256::hex() {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> bytes{};
+  unsigned int size = 0;
+  if (EVP_DigestFinal_ex(context_of(context_.get()), bytes.data(), &size) != 1)
+    throw std::runtime_error("OpenSSL: SHA-256 failed");
+  std::string text;
+  for (unsigned int i = 0; i < size; ++i) text += fmt::format("{:02x}", bytes[i]);
+  return text;
+}
+
 std::string sha256(std::string_view bytes) {
-  Digest digest;
+  Sha256 digest;
   digest.add(bytes.data(), bytes.size());
   return digest.hex();
 }
@@ -47,7 +46,7 @@ std::string sha256(std::string_view bytes) {
 std::string sha256_file(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw FileError(fmt::format("cannot read '{}'", path.string()));
-  Digest digest;
+  Sha256 digest;
   std::vector<char> block(1 << 20);
   while (in) {
     in.read(block.data(), static_cast<std::streamsize>(block.size()));

@@ -1,9 +1,11 @@
 #include "fem/run.hpp"
 
 #include "fem/build_model.hpp"
+#include "fem/checkpoint.hpp"
 #include "fem/gravity.hpp"
 #include "fem/time_step.hpp"
-#include "model/history.hpp"
+#include "model/checkpoint_file.hpp"
+#include "model/resumable_history.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -144,7 +146,7 @@ class StepControl {
 }  // namespace
 
 FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const FemConfig& config,
-                 const std::filesystem::path& history, int threads, const Progress& progress) {
+                 const FemPaths& paths, int threads, const Progress& progress) {
   check(motion);
   omp_set_num_threads(std::max(1, threads));
   Solver s = make_solver(build_model(section, config), rayleigh(config.damping));
@@ -164,47 +166,71 @@ FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const F
     facts.notes.push_back(*note);
     notes.push_back(std::move(*note));
   }
-  FemHistoryWriter writer(
-      history, section.mesh,
-      {"flowslide fem.run", "mean of xx and yy for PM4Sand, elastic plane strain for other laws",
-       notes});
   FemFrame frame;
   fill(frame, s, nodes, elements);
-  writer.set_gravity(frame);
   StepControl control(s, config.courant);
   start_motion(s);
   s.dt = 1e-12;
-  facts.smallest_step = end;
+  RunState run{.since = kModuliInterval, .smallest_step = end};
+  const std::string origin = fingerprint(section, motion, config);
+  if (std::filesystem::exists(paths.checkpoint)) read_checkpoint(paths.checkpoint, origin, s, run);
+  ResumableHistoryWriter history(
+      paths.history, section.mesh,
+      {"flowslide fem.run", "mean of xx and yy for PM4Sand, elastic plane strain for other laws",
+       notes},
+      frame, static_cast<std::size_t>(run.output - 1));
 
-  const auto start = std::chrono::steady_clock::now();
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  const double seconds_before = run.seconds;
+  Clock::time_point last_checkpoint = start;
+  const auto seconds_since = [](Clock::time_point t) {
+    return std::chrono::duration<double>(Clock::now() - t).count();
+  };
+  const auto checkpoint = [&] {
+    history.flush();
+    run.seconds = seconds_before + seconds_since(start);
+    write_checkpoint(paths.checkpoint, origin, s, run);
+    last_checkpoint = Clock::now();
+  };
   const std::vector<std::int32_t> base = nodes_of(find_set(section, "base"));
-  for (std::int64_t output = 1; s.state.time < end * (1.0 - 1e-9) && !facts.stopped; ++output) {
-    const double target = std::min(end, static_cast<double>(output) * config.output_interval);
-    int since = kModuliInterval;
+  while (s.state.time < end * (1.0 - 1e-9) && !facts.stopped) {
+    const double target = std::min(end, static_cast<double>(run.output) * config.output_interval);
     while (target - s.state.time > 1e-9 * config.output_interval) {
-      if (since++ >= kModuliInterval) {
+      if (run.since++ >= kModuliInterval) {
         refresh_moduli(s);
         control.choose(s, target - s.state.time);
-        facts.smallest_step = std::min(facts.smallest_step, s.dt);
-        facts.largest_step = std::max(facts.largest_step, s.dt);
-        since = 1;
+        run.smallest_step = std::min(run.smallest_step, s.dt);
+        run.largest_step = std::max(run.largest_step, s.dt);
+        run.since = 1;
       }
       advance(s, {ground.at(s.state.time), ground.at(s.state.time + s.dt)});
-      if (progress.should_stop())
-        throw Interrupted(fmt::format("stopped at {:.2f} s of shaking", s.state.time));
+      if (progress.should_stop()) {
+        checkpoint();
+        throw Interrupted(
+            fmt::format("interrupted at {:.2f} s of shaking; the same command continues from there",
+                        s.state.time));
+      }
+      if (seconds_since(last_checkpoint) > kCheckpointSeconds) checkpoint();
     }
     s.state.time = target;
     fill(frame, s, nodes, elements);
-    writer.append(frame);
-    facts.largest_displacement = largest_displacement(frame, base);
+    history.append(frame);
+    ++run.output;
+    run.since = kModuliInterval;
+    run.largest_displacement = largest_displacement(frame, base);
     facts.stopped =
-        config.stop_displacement && facts.largest_displacement >= *config.stop_displacement;
+        config.stop_displacement && run.largest_displacement >= *config.stop_displacement;
     progress.report(target / end, fmt::format("{:.2f} s, step {:.3g} s", target, s.dt));
   }
-  writer.finish();
-  facts.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  history.finish();
+  std::filesystem::remove(paths.checkpoint);
+  facts.seconds = seconds_before + seconds_since(start);
   facts.end_time = s.state.time;
   facts.steps = s.state.step;
+  facts.largest_displacement = run.largest_displacement;
+  facts.smallest_step = run.smallest_step;
+  facts.largest_step = run.largest_step;
   const Energy& energy = s.state.energy;
   facts.energy_error = energy.error();
   facts.base_work = energy.base;

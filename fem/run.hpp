@@ -29,10 +29,17 @@ struct FemFacts {
   std::vector<std::string> notes;
 };
 
+struct FemPaths {
+  std::filesystem::path history;     ///< the FemHistory to write
+  std::filesystem::path checkpoint;  ///< written now and then; read first if it exists
+};
+
 /// Runs gravity and shaking and writes the history, without the free-field columns. Displacements
-/// count from the end of gravity and hold the motion of the base. Throws InputError, NumericsError
-/// naming element and time, FileError, Interrupted.
+/// count from the end of gravity and hold the motion of the base. With an existing checkpoint of
+/// the same run, continues from it: history and facts are then bit for bit those of an
+/// uninterrupted run, wall time apart. Throws InputError, NumericsError naming element and time,
+/// FileError, Interrupted.
 FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const FemConfig& config,
-                 const std::filesystem::path& history, int threads, const Progress& progress);
+                 const FemPaths& paths, int threads, const Progress& progress);
 
 }  // namespace flowslide

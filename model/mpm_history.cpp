@@ -107,6 +107,7 @@ struct MpmHistoryWriter::Impl {
   ParticleSet initial;
   std::size_t num_frames, num_samples;
   AppendFile frames, samples;
+  bool finished = false;
 
   Impl(std::filesystem::path target, std::filesystem::path where, std::size_t keep_frames,
        std::size_t keep_samples)
@@ -145,7 +146,10 @@ MpmHistoryWriter::MpmHistoryWriter(const std::filesystem::path& path, std::size_
                                    std::size_t resume_samples)
     : impl_(std::make_unique<Impl>(path, partial_folder(path), resume_frames, resume_samples)) {}
 
-MpmHistoryWriter::~MpmHistoryWriter() = default;
+MpmHistoryWriter::~MpmHistoryWriter() {
+  std::error_code ignored;
+  if (impl_->finished) std::filesystem::remove_all(impl_->folder, ignored);
+}
 
 void MpmHistoryWriter::append(const MpmFrame& frame) {
   const std::size_t n = impl_->initial.size();
@@ -216,7 +220,7 @@ void MpmHistoryWriter::finish() {
   if (error)
     throw FileError(fmt::format("'{}' cannot be renamed to '{}' ({})", joined.string(),
                                 impl_->path.string(), error.message()));
-  std::filesystem::remove_all(impl_->folder, error);
+  impl_->finished = true;
 }
 
 struct MpmHistory::Impl {

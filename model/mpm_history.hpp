@@ -1,11 +1,11 @@
 #pragma once
+#include "model/particle_set.hpp"
+
 #include <array>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
-
-#include "model/particle_set.hpp"
 
 /// Frames and time series of a runout. On disk: HDF5, kind "mpm_history", particles in order of id.
 namespace flowslide {
@@ -13,13 +13,13 @@ namespace flowslide {
 /// State of all particles at one instant, in order of id. Those that left through the outlet keep
 /// the state in which they left, but for their volume.
 struct MpmFrame {
-  double time = 0.0;                                ///< [s] since transfer
-  std::vector<std::array<double, 3>> position;      ///< [m]
-  std::vector<std::array<double, 3>> velocity;      ///< [m/s]
-  std::vector<std::array<double, 6>> stress;        ///< total [Pa]
-  std::vector<double> volume;                       ///< [m3]; 0 once it left through the outlet
-  std::vector<double> plastic_strain;               ///< accumulated deviatoric plastic strain eps_q [-]
-  std::vector<double> strength;                     ///< present undrained strength or cohesion [Pa]
+  double time = 0.0;                            ///< [s] since transfer
+  std::vector<std::array<double, 3>> position;  ///< [m]
+  std::vector<std::array<double, 3>> velocity;  ///< [m/s]
+  std::vector<std::array<double, 6>> stress;    ///< total [Pa]
+  std::vector<double> volume;                   ///< [m3]; 0 once it left through the outlet
+  std::vector<double> plastic_strain;           ///< accumulated deviatoric plastic strain eps_q [-]
+  std::vector<double> strength;                 ///< present undrained strength or cohesion [Pa]
 };
 
 /// One row per output of the time series; masses and energies per metre of width in plane strain.
@@ -27,23 +27,23 @@ struct MpmFrame {
 /// not; the front counts points that left with the place where they did.
 struct MpmSample {
   double time = 0.0;
-  double runout = 0.0;            ///< [m] past the toe, by the fifth-farthest point
-  double front = 0.0;             ///< x of the fifth-farthest point [m]
-  double kinetic = 0.0;           ///< kinetic energy [J]
-  double gravity_work = 0.0;      ///< work of gravity since the start [J]
-  double strain_energy = 0.0;     ///< change of recoverable energy since the start [J]
-  double plastic_work = 0.0;      ///< dissipated in the material [J]
-  double friction_work = 0.0;     ///< dissipated on the boundary [J]
-  double damping_work = 0.0;      ///< dissipated by artificial damping and by the velocity transfer [J]
-  double energy_error = 0.0;      ///< residual of the balance / work of gravity [-]
-  double momentum_error = 0.0;    ///< residual of the impulse balance / total impulse of gravity [-]
-  double mass_error = 0.0;        ///< relative
-  double max_speed = 0.0;         ///< [m/s]
-  double dt = 0.0;                ///< time step [s]
-  double active_particles = 0.0;  ///< share of particles not asleep [-]
-  double points_left = 0.0;       ///< number of points that left through the outlet
-  double mass_left = 0.0;         ///< their mass [kg]
-  double kinetic_left = 0.0;      ///< kinetic energy with which they left [J]
+  double runout = 0.0;         ///< [m] past the toe, by the fifth-farthest point
+  double front = 0.0;          ///< x of the fifth-farthest point [m]
+  double kinetic = 0.0;        ///< kinetic energy [J]
+  double gravity_work = 0.0;   ///< work of gravity since the start [J]
+  double strain_energy = 0.0;  ///< change of recoverable energy since the start [J]
+  double plastic_work = 0.0;   ///< dissipated in the material [J]
+  double friction_work = 0.0;  ///< dissipated on the boundary [J]
+  double damping_work = 0.0;  ///< dissipated by artificial damping and by the velocity transfer [J]
+  double energy_error = 0.0;  ///< residual of the balance / work of gravity [-]
+  double momentum_error = 0.0;  ///< residual of the impulse balance / total impulse of gravity [-]
+  double mass_error = 0.0;      ///< relative
+  double max_speed = 0.0;       ///< [m/s]
+  double dt = 0.0;              ///< time step [s]
+  double active_particles = 0.0;    ///< share of particles not asleep [-]
+  double points_left = 0.0;         ///< number of points that left through the outlet
+  double mass_left = 0.0;           ///< their mass [kg]
+  double kinetic_left = 0.0;        ///< kinetic energy with which they left [J]
   double strain_energy_left = 0.0;  ///< recoverable energy with which they left [J]
   double momentum_left_x = 0.0;     ///< momentum with which they left [N s]
   double momentum_left_y = 0.0;     ///< likewise, vertical [N s]
@@ -52,11 +52,13 @@ struct MpmSample {
 
 class MpmHistoryWriter {
  public:
-  /// Starts `path`.partial, or, if `resume_samples`/`resume_frames` are given, reopens it and cuts it
-  /// back to that many rows and frames. finish() renames it to `path`.
+  /// Starts the folder `path`.partial, or, if `resume_samples`/`resume_frames` are given, reopens
+  /// it and cuts it back to that many rows and frames. finish() makes `path` from it.
   MpmHistoryWriter(const std::filesystem::path& path, const ParticleSet& initial);
   MpmHistoryWriter(const std::filesystem::path& path, std::size_t resume_frames,
                    std::size_t resume_samples);
+  /// After finish() the folder goes too. It stays until then, so that a kill between the last bytes
+  /// and the removal of the checkpoint leaves a run that can be continued.
   ~MpmHistoryWriter();
   MpmHistoryWriter(const MpmHistoryWriter&) = delete;
   MpmHistoryWriter& operator=(const MpmHistoryWriter&) = delete;

@@ -1,5 +1,6 @@
 #include "mpm/flow.hpp"
 
+#include "model/checkpoint_file.hpp"
 #include "mpm/balance.hpp"
 #include "mpm/checkpoint.hpp"
 #include "mpm/load.hpp"
@@ -14,8 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Scratch = mpm::StepScratch<2>;
 
-constexpr double kCheckpointSeconds = 15.0;  ///< wall time between checkpoints
-constexpr double kReportSeconds = 0.2;       ///< wall time between progress reports
+constexpr double kReportSeconds = 0.2;  ///< wall time between progress reports
 /// A step that shrank this much means that the state has gone wrong, not that the flow is fast.
 constexpr double kDtCollapse = 1e-5;
 

@@ -13,3 +13,11 @@ TEST_CASE("sha256 gives the published digest of 'abc'", "[core]") {
 TEST_CASE("hashing a file that is not there is a file error", "[core]") {
   CHECK_THROWS_AS(flowslide::sha256_file("/does/not/exist"), flowslide::FileError);
 }
+
+TEST_CASE("a digest does not depend on the pieces", "[core]") {
+  flowslide::Sha256 digest;
+  digest.add("a", 1);
+  digest.add("", 0);
+  digest.add("bc", 2);
+  CHECK(digest.hex() == flowslide::sha256("abc"));
+}

@@ -17,6 +17,10 @@ GroundMotion sine(double amplitude, double duration) {
   return m;
 }
 
+FemPaths in(const Scratch& folder, const std::string& name) {
+  return {folder / (name + ".h5"), folder / (name + ".checkpoint")};
+}
+
 }  // namespace
 
 TEST_CASE("A run writes a history that starts at rest and follows the ground", "[fem]") {
@@ -24,7 +28,7 @@ TEST_CASE("A run writes a history that starts at rest and follows the ground", "
   FemConfig c = config(sand(), 4.0);
   c.output_interval = 0.1;
   const Scratch folder;
-  const FemFacts f = run_fem(s, sine(1.0, 0.5), c, folder / "history.h5", 1, {});
+  const FemFacts f = run_fem(s, sine(1.0, 0.5), c, in(folder, "history"), 1, {});
   CHECK(f.end_time == Approx(0.5));
   CHECK(f.energy_error < 1e-4);  // changes of the step cost some
   CHECK(f.out_of_balance < 1e-12);
@@ -46,7 +50,7 @@ TEST_CASE("Free-field columns are not in the history", "[fem]") {
   c.sides.kind = SideKind::free_field;
   c.end = 0.05;
   const Scratch folder;
-  run_fem(s, sine(1.0, 0.5), c, folder / "history.h5", 1, {});
+  run_fem(s, sine(1.0, 0.5), c, in(folder, "history"), 1, {});
   const FemHistory h(folder / "history.h5");
   CHECK(h.mesh().num_nodes() == s.mesh.num_nodes());
   CHECK(h.times().back() == Approx(0.05));
@@ -58,13 +62,13 @@ TEST_CASE("A run ends where the section has moved too far, if asked", "[fem]") {
   FemConfig c = config(sand(), 4.0);
   c.output_interval = 0.05;
   const Scratch folder;
-  const FemFacts whole = run_fem(s, sine(3.0, 0.5), c, folder / "whole.h5", 1, {});
+  const FemFacts whole = run_fem(s, sine(3.0, 0.5), c, in(folder, "whole"), 1, {});
   CHECK_FALSE(whole.stopped);
   CHECK(whole.end_time == Approx(0.5));
   const double limit = 0.5 * whole.largest_displacement;
   REQUIRE(limit > 0.0);
   c.stop_displacement = limit;
-  const FemFacts part = run_fem(s, sine(3.0, 0.5), c, folder / "part.h5", 1, {});
+  const FemFacts part = run_fem(s, sine(3.0, 0.5), c, in(folder, "part"), 1, {});
   CHECK(part.stopped);
   CHECK(part.end_time < 0.5);
   CHECK(part.largest_displacement >= limit);
@@ -88,12 +92,12 @@ TEST_CASE("A run tells where layers drain each other at rest", "[fem]") {
   c.water->drains = {"well"};
   c.end = 0.01;
   const Scratch folder;
-  const FemFacts drained = run_fem(s, sine(1.0, 0.5), c, folder / "a.h5", 1, {});
+  const FemFacts drained = run_fem(s, sine(1.0, 0.5), c, in(folder, "a"), 1, {});
   REQUIRE(drained.notes.size() == 1);
   CHECK_THAT(drained.notes[0], Catch::Contains("gravity.permeability"));
   CHECK(FemHistory(folder / "a.h5").origin().notes == drained.notes);
   c.water->drains.clear();
-  CHECK(run_fem(s, sine(1.0, 0.5), c, folder / "b.h5", 1, {}).notes.empty());
+  CHECK(run_fem(s, sine(1.0, 0.5), c, in(folder, "b"), 1, {}).notes.empty());
 }
 
 TEST_CASE("A stop request ends the run without a history", "[fem]") {
@@ -102,7 +106,7 @@ TEST_CASE("A stop request ends the run without a history", "[fem]") {
   progress.stop_requested = &stop;
   const Scratch folder;
   CHECK_THROWS_AS(
-      run_fem(section({}), sine(1.0, 0.5), config(sand(), 4.0), folder / "history.h5", 1, progress),
+      run_fem(section({}), sine(1.0, 0.5), config(sand(), 4.0), in(folder, "history"), 1, progress),
       Interrupted);
   CHECK_FALSE(std::filesystem::exists(folder / "history.h5"));
 }

@@ -156,6 +156,17 @@ TEST_CASE("A killed and continued runout has the same bytes", "[mpm]") {
   CHECK(read_text_file(paths.history) == uninterrupted());
 }
 
+TEST_CASE("A kill after the history was finished is no harm", "[mpm]") {
+  const Scratch folder;
+  const FlowPaths paths = paths_in(folder.path());
+  interrupt_once(paths);
+  // What such a kill leaves: the parts, the checkpoint and the finished history.
+  folder.write("mpm.h5", uninterrupted());
+  run_flow(column(), flow_config(), paths, 1, {});
+  CHECK(read_text_file(paths.history) == uninterrupted());
+  CHECK(!std::filesystem::exists(folder / "mpm.h5.partial"));
+}
+
 TEST_CASE("A damaged checkpoint is refused", "[mpm]") {
   const Scratch folder;
   const FlowPaths paths = paths_in(folder.path());
@@ -170,9 +181,11 @@ TEST_CASE("A damaged checkpoint is refused", "[mpm]") {
   for (std::size_t length = 0; length < good.size(); length += 1 + good.size() / 97)
     refused(good.substr(0, length));
   refused(good + "x");
-  std::string other = good;
-  other[0] = static_cast<char>(other[0] + 1);
-  refused(other);
+  for (std::size_t i = 0; i < good.size(); i += 1 + good.size() / 97) {
+    std::string flipped = good;
+    flipped[i] = static_cast<char>(flipped[i] ^ 1);
+    refused(flipped);
+  }
   folder.write("mpm.checkpoint", good);
   Simulation<2> fits = make_simulation(column(), flow_config());
   RunState run;

@@ -13,7 +13,7 @@ struct FemRun {
   static constexpr std::string_view doc =
       "Gravity and shaking of a saturated section, with the finite element method.";
   static constexpr int version = 1;
-  static constexpr bool checkpoints = false;
+  static constexpr bool checkpoints = true;
   using Config = FemConfig;
   struct Inputs {
     Artifact<SectionMesh> mesh;
@@ -31,7 +31,8 @@ struct FemRun {
   static StageResult run(const RunContext& context, const Config& config, const Inputs& in,
                          const Outputs& out) {
     const FemFacts f = run_fem(read_section_mesh(in.mesh.path), read_motion_file(in.motion.path),
-                               config, out.history.path, context.threads, context.progress);
+                               config, {out.history.path, context.folder / "checkpoint"},
+                               context.threads, context.progress);
     const nlohmann::ordered_json facts = {{"fem_end_s", f.end_time},
                                           {"fem_stopped_by_displacement", f.stopped},
                                           {"fem_largest_displacement_m", f.largest_displacement},

@@ -7,13 +7,6 @@
 namespace flowslide {
 namespace {
 
-/// A kill just after the history was finished leaves both it and the last checkpoint; continuing
-/// from that needs the history under the name it had before.
-void reopen_finished_history(const FlowPaths& paths) {
-  if (std::filesystem::exists(paths.history) && std::filesystem::exists(paths.checkpoint))
-    std::filesystem::rename(paths.history, paths.history.string() + ".partial");
-}
-
 struct FlowStage {
   static constexpr std::string_view name = "mpm.run";
   static constexpr std::string_view doc = "The runout, with the material point method.";
@@ -32,7 +25,6 @@ struct FlowStage {
   static StageResult run(const RunContext& context, const Config& config, const Inputs& in,
                          const Outputs& out) {
     const FlowPaths paths{out.history.path, context.folder / "checkpoint"};
-    reopen_finished_history(paths);
     const FlowFacts f = run_flow(read_particles(in.particles.path), config, paths, context.threads,
                                  context.progress);
     const double rate = f.step_seconds > 0.0 ? f.updates_this_call / f.step_seconds : 0.0;

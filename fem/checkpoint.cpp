@@ -1,0 +1,83 @@
+#include "fem/checkpoint.hpp"
+
+#include "model/checkpoint_file.hpp"
+
+namespace flowslide::fem {
+namespace {
+
+// Changes whenever the list of fields below changes.
+constexpr std::uint64_t kFields = 0x7368616b65637031;
+
+/// One list of fields for both directions: `Archive` writes or reads each. The forces carry the
+/// damping of the step that made them, so they belong to the state.
+template <class Archive, class S, class Run>
+void transfer_fields(Archive& a, S& s, Run& run) {
+  a.value(run);
+  auto& t = s.state;
+  a.value(t.time);
+  a.value(t.step);
+  a.array(t.displacement);
+  a.array(t.velocity);
+  a.array(t.pressure);
+  a.array(t.stress);
+  a.array(t.hourglass_x);
+  a.array(t.hourglass_y);
+  a.array(t.pm4sand);
+  a.array(t.mohr_coulomb);
+  a.value(t.last_dt);
+  a.value(t.energy);
+  a.value(t.pending);
+  a.value(t.pending_deformation);
+  a.value(t.pending_viscous);
+  a.value(s.dt);
+  a.array(s.lambda);
+  a.array(s.shear);
+  a.value(s.counters);
+  a.array(s.entry_force);
+}
+
+}  // namespace
+
+std::string fingerprint(const SectionMesh& section, const GroundMotion& motion,
+                        const FemConfig& config) {
+  Sha256 digest;
+  const auto text = [&](const std::string& x) { digest.add(x.c_str(), x.size() + 1); };
+  const auto array = [&](const auto& x) {
+    const std::uint64_t size = x.size();
+    digest.add(&size, sizeof size);
+    digest.add(x.data(), x.size() * sizeof(x[0]));
+  };
+  text(canonical_text(config));
+  array(section.mesh.nodes);
+  array(section.mesh.elements);
+  array(section.mesh.element_material);
+  for (const MaterialName& m : section.materials) text(fmt::format("{} {}", m.tag, m.name));
+  for (const EdgeSet& set : section.sets) {
+    text(set.name);
+    array(set.edges);
+  }
+  digest.add(&motion.dt, sizeof motion.dt);
+  array(motion.acceleration);
+  return digest.hex();
+}
+
+void write_checkpoint(const std::filesystem::path& path, const std::string& fingerprint,
+                      const Solver& s, const RunState& run) {
+  CheckpointWriter out(path, kFields);
+  out.array(std::vector<char>(fingerprint.begin(), fingerprint.end()));
+  transfer_fields(out, s, run);
+  out.finish();
+}
+
+void read_checkpoint(const std::filesystem::path& path, const std::string& fingerprint, Solver& s,
+                     RunState& run) {
+  CheckpointReader in(path, kFields);
+  std::vector<char> found;
+  in.array(found);
+  if (std::string(found.begin(), found.end()) != fingerprint)
+    in.refuse("it belongs to a run with another section, motion or other settings");
+  transfer_fields(in, s, run);
+  in.finish();
+}
+
+}  // namespace flowslide::fem

@@ -1,0 +1,73 @@
+#pragma once
+#include "core/hash.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <type_traits>
+#include <vector>
+
+/// Checkpoints of long runs: values and arrays as they lie in memory, after a number that stands
+/// for the list of fields and before the SHA-256 of all of it. Native byte order; for the same
+/// program on the same machine. docs/adr/0008-checkpoints.md
+namespace flowslide {
+
+inline constexpr double kCheckpointSeconds = 15.0;  ///< wall time between checkpoints of a run
+
+/// Writes `path`.partial, which replaces `path` in finish(). Throws FileError.
+class CheckpointWriter {
+ public:
+  /// @param fields changes whenever the list of fields changes
+  CheckpointWriter(std::filesystem::path path, std::uint64_t fields);
+  template <class T>
+  void value(const T& x) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    put(&x, sizeof x);
+  }
+  template <class T>
+  void array(const std::vector<T>& x) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    value(std::uint64_t{x.size()});
+    put(x.data(), x.size() * sizeof(T));
+  }
+  void finish();
+
+ private:
+  void put(const void* bytes, std::size_t size);
+  std::filesystem::path path_, partial_;
+  std::ofstream out_;
+  Sha256 digest_;
+};
+
+/// Reads in the order of writing. Nothing is read from a file whose bytes are not those that were
+/// written: the constructor throws FileError for it, and for another list of fields.
+class CheckpointReader {
+ public:
+  CheckpointReader(std::filesystem::path path, std::uint64_t fields);
+  template <class T>
+  void value(T& x) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    take(&x, sizeof x);
+  }
+  template <class T>
+  void array(std::vector<T>& x) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    std::uint64_t size = 0;
+    value(size);
+    if (size > left_ / sizeof(T)) refuse("it ends within a field");
+    x.resize(size);
+    take(x.data(), size * sizeof(T));
+  }
+  /// After the last field. Throws FileError if there is more.
+  void finish();
+  [[noreturn]] void refuse(const char* why) const;
+
+ private:
+  void take(void* bytes, std::size_t size);
+  std::filesystem::path path_;
+  std::ifstream in_;
+  std::uint64_t left_ = 0;  ///< bytes before the checksum
+};
+
+}  // namespace flowslide

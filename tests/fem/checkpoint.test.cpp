@@ -1,0 +1,184 @@
+#include "fem/checkpoint.hpp"
+
+#include "fem/verify/scene.hpp"
+#include "tests/support/scratch.hpp"
+
+#include <csignal>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+
+using namespace flowslide;
+using namespace flowslide::fem;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// Sand over a crust of Mohr-Coulomb, on a compliant base, between free fields: every kind of state
+/// there is. The last interval of output is shorter, so that the step changes.
+struct Scene {
+  SectionMesh mesh = section({.columns = 4, .rows = 8, .width = 8.0, .height = 8.0});
+  GroundMotion motion{.dt = 0.01, .acceleration = {}, .origin = "test"};
+  FemConfig settings = config(sand(), 6.0);
+
+  Scene() {
+    mesh.materials.push_back({"crust", 2});
+    for (std::size_t e = 24; e < 32; ++e) mesh.mesh.element_material[e] = 2;
+    settings.materials["crust"] = soil();
+    MohrCoulomb::Params mc;
+    mc.youngs_modulus = 20e6;
+    mc.poisson_ratio = 0.3;
+    mc.cohesion = 5e3;
+    mc.friction_angle = 0.5;
+    settings.materials["crust"].mohr_coulomb = mc;
+    settings.base = {BaseMotionKind::outcrop, 400.0, 2000.0, true};
+    settings.sides.kind = SideKind::free_field;
+    settings.damping.mass = 0.1;
+    settings.damping.stiffness = 1e-4;
+    settings.output_interval = 0.07;
+    settings.end = 1.0;
+    for (int i = 0; i < 101; ++i)
+      motion.acceleration.push_back(4.0 * std::sin(4.0 * kPi * motion.dt * i));
+  }
+
+  FemFacts run(const std::filesystem::path& folder, const Progress& progress = {}) const {
+    return run_fem(mesh, motion, settings, {folder / "history.h5", folder / "checkpoint"}, 1,
+                   progress);
+  }
+  /// One step.
+  void interrupt(const std::filesystem::path& folder) const {
+    static const std::atomic<bool> stop{true};
+    Progress progress;
+    progress.stop_requested = &stop;
+    REQUIRE_THROWS_AS(run(folder, progress), Interrupted);
+  }
+  /// One step after the first recorded state from `fraction` on.
+  void interrupt_after(const std::filesystem::path& folder, double fraction) const {
+    std::atomic<bool> stop{false};
+    Progress progress;
+    progress.stop_requested = &stop;
+    progress.report = [&](double done, std::string_view) { stop = done > fraction; };
+    REQUIRE_THROWS_AS(run(folder, progress), Interrupted);
+  }
+};
+
+/// All but the wall time.
+bool same(const FemFacts& a, const FemFacts& b) {
+  return a.end_time == b.end_time && a.largest_displacement == b.largest_displacement &&
+         a.stopped == b.stopped && a.steps == b.steps && a.smallest_step == b.smallest_step &&
+         a.largest_step == b.largest_step && a.out_of_balance == b.out_of_balance &&
+         a.energy_error == b.energy_error && a.base_work == b.base_work &&
+         a.damping_work == b.damping_work && a.kinetic_energy == b.kinetic_energy &&
+         a.sub_steps == b.sub_steps && a.floored == b.floored && a.notes == b.notes;
+}
+
+struct Whole {
+  Scratch folder;
+  FemFacts facts;
+  std::string bytes;
+};
+const Whole& whole() {
+  static Whole w;
+  if (w.bytes.empty()) {
+    w.facts = Scene().run(w.folder.path());
+    w.bytes = read_text_file(w.folder / "history.h5");
+  }
+  return w;
+}
+
+}  // namespace
+
+TEST_CASE("An interrupted and continued shaking has the same bytes and facts", "[fem]") {
+  const Scene scene;
+  REQUIRE(whole().facts.largest_step > whole().facts.smallest_step);
+  const Scratch folder;
+  // Steps 1 to 20: within a look at the moduli and across it; then at arbitrary places.
+  for (int i = 0; i < 20; ++i) scene.interrupt(folder.path());
+  for (const double fraction : {0.15, 0.4, 0.75}) {
+    scene.interrupt_after(folder.path(), fraction);
+    for (int i = 0; i < 3; ++i) scene.interrupt(folder.path());
+  }
+  CHECK_FALSE(std::filesystem::exists(folder / "history.h5"));
+  const FemFacts facts = scene.run(folder.path());
+  CHECK(read_text_file(folder / "history.h5") == whole().bytes);
+  CHECK(same(facts, whole().facts));
+  CHECK_FALSE(std::filesystem::exists(folder / "checkpoint"));
+  CHECK_FALSE(std::filesystem::exists(folder / "history.h5.partial"));
+}
+
+TEST_CASE("Child of the next test: shakes on and is killed", "[.fem-child]") {
+  const char* folder = std::getenv("FLOWSLIDE_TEST_FOLDER");
+  REQUIRE(folder);
+  Progress progress;
+  progress.report = [](double done, std::string_view) {
+    if (done > 0.65) ::kill(::getpid(), SIGKILL);
+  };
+  Scene().run(folder, progress);
+}
+
+TEST_CASE("A killed and continued shaking has the same bytes", "[fem]") {
+  const Scene scene;
+  const Scratch folder;
+  scene.interrupt_after(folder.path(), 0.25);
+  REQUIRE(::setenv("FLOWSLIDE_TEST_FOLDER", folder.path().c_str(), 1) == 0);
+  const pid_t child = ::fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    ::execl("/proc/self/exe", "test_fem", "[.fem-child]", static_cast<char*>(nullptr));
+    ::_exit(1);
+  }
+  int status = 0;
+  REQUIRE(::waitpid(child, &status, 0) == child);
+  REQUIRE((WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL));
+  REQUIRE(std::filesystem::exists(folder / "checkpoint"));
+  REQUIRE_FALSE(std::filesystem::exists(folder / "history.h5"));
+  const FemFacts facts = scene.run(folder.path());
+  CHECK(read_text_file(folder / "history.h5") == whole().bytes);
+  CHECK(same(facts, whole().facts));
+}
+
+TEST_CASE("A kill after the history was finished is no harm", "[fem]") {
+  const Scene scene;
+  const Scratch folder;
+  scene.interrupt_after(folder.path(), 0.6);
+  // What such a kill leaves: the parts, the checkpoint and the finished history.
+  std::filesystem::copy_file(whole().folder / "history.h5", folder / "history.h5");
+  scene.run(folder.path());
+  CHECK(read_text_file(folder / "history.h5") == whole().bytes);
+}
+
+TEST_CASE("A damaged checkpoint of shaking is named", "[fem]") {
+  const Scene scene;
+  const Scratch folder;
+  scene.interrupt(folder.path());
+  std::string bytes = read_text_file(folder / "checkpoint");
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 4);
+  folder.write("checkpoint", bytes);
+  try {
+    scene.run(folder.path());
+    FAIL("continued");
+  } catch (const FileError& e) {
+    CHECK_THAT(e.what(), Contains((folder / "checkpoint").string()) && Contains("checksum") &&
+                             Contains("delete it"));
+  }
+  std::filesystem::remove(folder / "checkpoint");
+  scene.run(folder.path());
+  CHECK(read_text_file(folder / "history.h5") == whole().bytes);
+}
+
+TEST_CASE("A checkpoint of another run is refused", "[fem]") {
+  const Scratch folder;
+  Scene().interrupt(folder.path());
+  const auto other_run = [&](auto change) {
+    Scene other;
+    change(other);
+    CHECK_THROWS_WITH(other.run(folder.path()), Contains("belongs to a run with another section"));
+  };
+  other_run([](Scene& s) { s.settings.courant = 0.45; });
+  other_run([](Scene& s) { s.settings.materials["crust"].density = 1950.0; });
+  other_run([](Scene& s) { s.motion.acceleration[3] += 1e-9; });
+  other_run([](Scene& s) { s.mesh.mesh.nodes[7][0] += 1e-9; });
+  other_run([](Scene& s) { std::swap(s.mesh.materials[0].name, s.mesh.materials[1].name); });
+  CHECK_NOTHROW(Scene().run(folder.path()));  // control
+}
