@@ -15,7 +15,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// Sand over a crust of Mohr-Coulomb, on a compliant base, between free fields: every kind of state
+/// Sand under a crust that softens, on a compliant base, between free fields: every kind of state
 /// there is. The last interval of output is shorter, so that the step changes.
 struct Scene {
   SectionMesh mesh = section({.columns = 4, .rows = 8, .width = 8.0, .height = 8.0});
@@ -29,8 +29,11 @@ struct Scene {
     MohrCoulomb::Params mc;
     mc.youngs_modulus = 20e6;
     mc.poisson_ratio = 0.3;
-    mc.cohesion = 5e3;
-    mc.friction_angle = 0.5;
+    mc.cohesion = 1e3;
+    mc.friction_angle = 0.4;
+    mc.residual_cohesion = 0.0;
+    mc.residual_friction_angle = 0.2;
+    mc.residual_strain = 0.01;
     settings.materials["crust"].mohr_coulomb = mc;
     settings.base = {BaseMotionKind::outcrop, 400.0, 2000.0, true};
     settings.sides.kind = SideKind::free_field;
