@@ -1,3 +1,4 @@
+#include "exporters/opensees_recorders.hpp"
 #include "fem/run.hpp"
 #include "model/history.hpp"
 #include "model/motion_file.hpp"
@@ -8,13 +9,32 @@
 namespace flowslide {
 namespace {
 
+struct FemRunConfig : FemConfig {
+  bool opensees_recorders = false;
+};
+
+}  // namespace
+
+template <>
+struct Schema<FemRunConfig> {
+  static constexpr std::string_view doc = Schema<FemConfig>::doc;
+  static void describe(FieldVisitor& v, FemRunConfig& c) {
+    Schema<FemConfig>::describe(v, c);
+    v.flag("opensees_recorders", c.opensees_recorders,
+           "write the folder recorders too: text files with the names, columns and units (m, s, "
+           "kPa) of scripts around OpenSees");
+  }
+};
+
+namespace {
+
 struct FemRun {
   static constexpr std::string_view name = "fem.run";
   static constexpr std::string_view doc =
       "Gravity and shaking of a saturated section, with the finite element method.";
   static constexpr int version = 1;
   static constexpr bool checkpoints = true;
-  using Config = FemConfig;
+  using Config = FemRunConfig;
   struct Inputs {
     Artifact<SectionMesh> mesh;
     Artifact<GroundMotion> motion;
@@ -33,22 +53,30 @@ struct FemRun {
     const FemFacts f = run_fem(read_section_mesh(in.mesh.path), read_motion_file(in.motion.path),
                                config, {out.history.path, context.folder / "checkpoint"},
                                context.threads, context.progress);
-    const nlohmann::ordered_json facts = {{"fem_end_s", f.end_time},
-                                          {"fem_stopped_by_displacement", f.stopped},
-                                          {"fem_largest_displacement_m", f.largest_displacement},
-                                          {"fem_steps", f.steps},
-                                          {"fem_smallest_step_s", f.smallest_step},
-                                          {"fem_largest_step_s", f.largest_step},
-                                          {"fem_out_of_balance", f.out_of_balance},
-                                          {"fem_energy_error", f.energy_error},
-                                          {"fem_base_work_j", f.base_work},
-                                          {"fem_damping_work_j", f.damping_work},
-                                          {"fem_kinetic_energy_j", f.kinetic_energy},
-                                          {"fem_sub_steps", f.sub_steps},
-                                          {"fem_sub_steps_at_floor", f.floored},
-                                          {"fem_seconds", f.seconds},
-                                          {"fem_notes", f.notes}};
-    return {.facts = facts.dump(), .publish = {}};
+    nlohmann::ordered_json facts = {{"fem_end_s", f.end_time},
+                                    {"fem_stopped_by_displacement", f.stopped},
+                                    {"fem_largest_displacement_m", f.largest_displacement},
+                                    {"fem_steps", f.steps},
+                                    {"fem_smallest_step_s", f.smallest_step},
+                                    {"fem_largest_step_s", f.largest_step},
+                                    {"fem_out_of_balance", f.out_of_balance},
+                                    {"fem_energy_error", f.energy_error},
+                                    {"fem_base_work_j", f.base_work},
+                                    {"fem_damping_work_j", f.damping_work},
+                                    {"fem_kinetic_energy_j", f.kinetic_energy},
+                                    {"fem_sub_steps", f.sub_steps},
+                                    {"fem_sub_steps_at_floor", f.floored},
+                                    {"fem_seconds", f.seconds},
+                                    {"fem_notes", f.notes}};
+    StageResult result{.facts = {}, .publish = {}};
+    if (config.opensees_recorders) {
+      const std::vector<std::string> lost =
+          write_opensees_recorders(context.folder / "recorders", FemHistory(out.history.path));
+      facts["fem_recorder_notes"] = lost;
+      result.publish.emplace_back("recorders");
+    }
+    result.facts = facts.dump();
+    return result;
   }
 };
 

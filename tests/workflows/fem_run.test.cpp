@@ -1,0 +1,157 @@
+#include "model/history.hpp"
+#include "tests/support/scratch.hpp"
+#include "workflows/engine/run_folder.hpp"
+#include "workflows/engine/runner.hpp"
+#include "workflows/stages/stage_list.hpp"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+using namespace flowslide;
+using Catch::Contains;
+
+namespace {
+
+constexpr const char* kShaking = R"(schema: 1
+name: column
+stages:
+  motion:
+    uses: motion.prepare
+    with: {synthetic: {pga: 0.3 g, tm: 0.5 s, d5_95: 2 s, lead: 0 s}}
+  mesh:
+    uses: mesh.section
+    with:
+      size: 2 m
+      materials: {sand: {tag: 5}}
+      blocks: {sand: {outline: [[0 m, 0 m], [8 m, 0 m], [8 m, 6 m], [0 m, 6 m]], material: sand}}
+  shake:
+    uses: fem.run
+    in: {mesh: mesh.mesh, motion: motion.motion}
+    with:
+      end: 2 s
+      materials:
+        sand:
+          density: 1900 kg/m3
+          void_ratio: 0.8
+          permeability: [1e-5 m/s, 1e-5 m/s]
+          pm4sand: {Dr: 0.35, G0: 476, hpo: 0.53}
+      water: {table: [[0 m, 6 m]]}
+      base: {motion: within}
+)";
+
+constexpr const char* kImport = R"(schema: 1
+name: again
+stages:
+  shake:
+    uses: import.opensees
+    with:
+      mesh: {nodes: run/recorders/nodeinfo.dat, elements: run/recorders/elementinfo.dat}
+      units: {length: m, time: s, stress: kPa}
+      gravity:
+        stress: run/recorders/Gstress.out
+        strain: run/recorders/Gstrain.out
+        pore_pressure: run/recorders/GporePressure.out
+      shaking:
+        displacement: run/recorders/displacement.out
+        velocity: run/recorders/velocity.out
+        pore_pressure: run/recorders/porePressure.out
+        stress: run/recorders/stress.out
+        strain: run/recorders/strain.out
+      sigma_zz: {rule: mean}
+)";
+
+struct Case {
+  Scratch scratch;
+  Workflow load(const char* text, const std::vector<std::string>& set = {}) const {
+    return load_workflow(scratch.write("case.yaml", text), set, all_stages());
+  }
+  void run(const char* text, const std::string& folder,
+           const std::vector<std::string>& set = {}) const {
+    run_workflow(load(text, set), {.folder = scratch / folder}, {});
+  }
+  /// history.h5 of the stage `shake`.
+  [[nodiscard]] std::filesystem::path history(const char* text, const std::string& folder,
+                                              const std::vector<std::string>& set = {}) const {
+    const auto plan = plan_workflow(load(text, set), scratch / folder);
+    return result_folder(scratch / folder, "shake", plan.back().decision.key) / "history.h5";
+  }
+};
+
+template <class A>
+double largest_difference(const std::vector<A>& a, const std::vector<A>& b) {
+  REQUIRE(a.size() == b.size());
+  double d = 0.0, largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t k = 0; k < sizeof(A) / sizeof(double); ++k) {
+      d = std::max(d, std::abs(reinterpret_cast<const double*>(&a[i])[k] -
+                               reinterpret_cast<const double*>(&b[i])[k]));
+      largest = std::max(largest, std::abs(reinterpret_cast<const double*>(&a[i])[k]));
+    }
+  return largest > 0.0 ? d / largest : d;
+}
+
+}  // namespace
+
+TEST_CASE("text recorders of fem.run come back through import.opensees", "[workflows]") {
+  const Case c;
+  const std::vector<std::string> on{"stages.shake.with.opensees_recorders=true"};
+  c.run(kShaking, "run", on);
+  c.run(kImport, "again");
+  const FemHistory before(c.history(kShaking, "run", on)), after(c.history(kImport, "again"));
+  CHECK(after.mesh().nodes == before.mesh().nodes);
+  CHECK(after.mesh().elements == before.mesh().elements);
+  CHECK(after.mesh().element_material == before.mesh().element_material);
+  REQUIRE(after.times() == before.times());
+  REQUIRE(before.times().size() == 8);
+  // Pa to kPa and back may turn the last bit.
+  CHECK(largest_difference(before.gravity().stress, after.gravity().stress) < 1e-15);
+  for (std::size_t i = 0; i < before.times().size(); ++i) {
+    const FemFrame a = before.frame(i), b = after.frame(i);
+    CHECK(a.displacement == b.displacement);
+    CHECK(a.velocity == b.velocity);
+    CHECK(largest_difference(a.strain, b.strain) == 0.0);
+    CHECK(largest_difference(a.stress, b.stress) < 1e-15);
+    CHECK(largest_difference(a.pore_pressure, b.pore_pressure) < 1e-15);
+  }
+  CHECK(largest_difference(before.frame(7).stress, before.frame(6).stress) > 1e-3);  // control
+}
+
+TEST_CASE("fem.run writes no text recorders unless asked", "[workflows]") {
+  const Case c;
+  c.run(kShaking, "run", {"stages.shake.with.end=0.25 s"});
+  CHECK_FALSE(std::filesystem::exists(c.scratch / "run/recorders"));
+}
+
+TEST_CASE("a workflow that is interrupted in fem.run continues there", "[workflows]") {
+  const Case c;
+  std::atomic<bool> stop = false;
+  RunEvents events;
+  events.progress = [&](std::string_view stage, double fraction, std::string_view) {
+    stop = stage == "shake" && fraction > 0.4;
+  };
+  const RunOptions options{.folder = c.scratch / "parts", .stop_requested = &stop};
+  try {
+    run_workflow(c.load(kShaking), options, events);
+    FAIL("was not interrupted");
+  } catch (const Error& e) {
+    CHECK(e.exit_code() == 130);
+    CHECK_THAT(e.what(), Contains("continues from there"));
+  }
+  stop = false;
+  const auto plan = plan_workflow(c.load(kShaking), c.scratch / "parts");
+  CHECK(plan.back().decision.action == Action::resume);
+  run_workflow(c.load(kShaking), {.folder = c.scratch / "parts"}, {});
+  c.run(kShaking, "whole");
+  CHECK(read_text_file(c.history(kShaking, "parts")) ==
+        read_text_file(c.history(kShaking, "whole")));
+  const auto facts = [&](const char* folder) {
+    auto j = nlohmann::json::parse(read_text_file(c.scratch / folder / "result.json"));
+    j.erase("fem_seconds");
+    nlohmann::json kept;
+    for (const auto& [key, value] : j.items())
+      if (key.starts_with("fem_")) kept[key] = value;
+    return kept;
+  };
+  CHECK(facts("parts").size() > 10);
+  CHECK(facts("parts") == facts("whole"));
+}
