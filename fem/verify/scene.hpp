@@ -87,8 +87,8 @@ inline FemConfig config(const FemMaterialConfig& material, double table) {
 }
 
 /// A solver at rest, ready to move with `courant` of its stable step.
-inline Solver at_rest(const SectionMesh& s, const FemConfig& c, double courant = 0.5) {
-  Solver r = make_solver(build_model(s, c), {c.damping.mass.value(), c.damping.stiffness.value()});
+inline Solver at_rest(const Model& model, const FemConfig& c, double courant = 0.5) {
+  Solver r = make_solver(model, {c.damping.mass.value(), c.damping.stiffness.value()});
   solve_gravity(r, {});
   refresh_moduli(r);
   for (std::size_t e = 0; e < r.layout.elements.size(); ++e)
@@ -98,6 +98,9 @@ inline Solver at_rest(const SectionMesh& s, const FemConfig& c, double courant =
   start_motion(r);
   r.dt = courant * stable_step({soil_frequency(r), water}, r.damping.stiffness);
   return r;
+}
+inline Solver at_rest(const SectionMesh& s, const FemConfig& c, double courant = 0.5) {
+  return at_rest(build_model(s, c), c, courant);
 }
 
 }  // namespace flowslide::fem
