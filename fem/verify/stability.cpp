@@ -71,9 +71,10 @@ namespace {
 struct Cantilever {
   int rows = 4;
   double poisson = 0.3, hourglass = 1.0;
-  std::optional<double> cohesion;  ///< of soil without friction [Pa]; elastic if left out
-  bool yields = true;              ///< hourglass motion, too
-  double duration = 10.0;          ///< over the inverse of the first circular frequency
+  std::optional<double> cohesion =
+      std::nullopt;        ///< of soil without friction [Pa]; elastic if left out
+  bool yields = true;      ///< hourglass motion, too
+  double duration = 10.0;  ///< over the inverse of the first circular frequency
 };
 
 constexpr double kBeamLength = 10.0, kBeamDepth = 1.0, kBeamDensity = 100.0;
@@ -85,11 +86,12 @@ double tip_ratio(const Cantilever& beam) {
   FemMaterialConfig m = elastic_soil(kYoung, beam.poisson);
   if (beam.cohesion) {
     m.linear_elastic.reset();
-    m.mohr_coulomb = MohrCoulomb::Params{.youngs_modulus = kYoung,
-                                         .poisson_ratio = beam.poisson,
-                                         .cohesion = *beam.cohesion,
-                                         .friction_angle = 0.0,
-                                         .tension_cutoff = 100.0 * *beam.cohesion};
+    m.mohr_coulomb.emplace();
+    m.mohr_coulomb->youngs_modulus = kYoung;
+    m.mohr_coulomb->poisson_ratio = beam.poisson;
+    m.mohr_coulomb->cohesion = *beam.cohesion;
+    m.mohr_coulomb->friction_angle = 0.0;
+    m.mohr_coulomb->tension_cutoff = 100.0 * *beam.cohesion;
   }
   m.density = kBeamDensity;
   FemConfig c = config(m, 0.0);
