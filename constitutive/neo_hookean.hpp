@@ -52,6 +52,21 @@ struct NeoHookean {
     return r;
   }
   static double present_strength(const Constants&, const State&) noexcept { return kUnset; }
+  /// At least rho c^2 of the fastest wave through the stretched material [Pa]: (K + 2 G)/J and the
+  /// largest principal stress, bounded by the rows of the stress matrix.
+  template <int Dim, class T>
+  static T present_modulus(const Constants& c, const StateOf<T>& s,
+                           const Stress<Dim, T>& sigma) noexcept {
+    const Tensor<T> t = symmetric<Dim>(sigma.v, T(1.0), T(0.0));
+    T tension = 0.0;
+    for (int i = 0; i < 3; ++i) {
+      T row = t[i][i];
+      for (int j = 0; j < 3; ++j)
+        if (j != i) row += max(t[i][j], T(-t[i][j]));
+      tension = max(tension, row);
+    }
+    return (c.elastic.bulk + 2.0 * c.elastic.shear) / s.volume_ratio + tension;
+  }
 
  private:
   template <class T>
