@@ -5,6 +5,7 @@
 #include "mpm/bench/cases.hpp"
 #include "mpm/verify/cases.hpp"
 #include "section/verify/cases.hpp"
+#include "workflows/bench/dam.hpp"
 
 namespace flowslide::cli {
 namespace {
@@ -27,6 +28,7 @@ std::vector<VerificationCase> all_verification_cases() {
 std::vector<BenchCase> all_benchmarks() {
   std::vector<BenchCase> cases;
   append(cases, fem_benchmarks());
+  append(cases, dam_benchmarks());
   append(cases, mpm_benchmarks());
   return cases;
 }

@@ -81,6 +81,23 @@ def step_table(rows):
     return "\n".join(lines)
 
 
+def dam_table(rows):
+    lines = [
+        "| run | elements | steps | crest, m | error | mean r_u under the pond | error "
+        "| r_u > 0.7, m | M sub-steps | core seconds |",
+        "|---|---|---|---|---|---|---|---|---|---|",
+    ]
+    for r in rows:
+        _, _, kind, name = r["name"].split("/", 3)
+        lines.append(
+            f"| {name + ' m' if kind == 'size' else name} | {r['elements']:,.0f} "
+            f"| {r['steps']:,.0f} | {r['crest_m']:.3f} | {100 * r['value']:.1f} % "
+            f"| {r['pond_r_u']:.3f} | {r['pond_r_u_error']:.3f} | {r['liquefied_m']:.1f} "
+            f"| {1e-6 * r['sub_steps']:.1f} | {r['core_seconds']:.1f} |"
+        )
+    return "\n".join(lines)
+
+
 def curve_table(lines_of):
     cells = sorted({p["cell_m"] for line in lines_of.values() for p in line}, reverse=True)
     head = "| basis / transfer | " + " | ".join(f"{c:g} m" for c in cells) + " |"
@@ -147,7 +164,12 @@ def main():
     valley = [m for m in mpm if m["name"].startswith("mpm/3d/valley/")]
     if valley:
         text = replace(text, "valley", valley_table(valley))
-    for mark, table in (("pm4sand", pm4sand_table), ("step", step_table)):
+    for mark, table in (
+        ("pm4sand", pm4sand_table),
+        ("step", step_table),
+        ("dam/size", dam_table),
+        ("dam/saving", dam_table),
+    ):
         rows = [m for m in measurements if m["name"].startswith(f"fem/{mark}/")]
         if rows:
             text = replace(text, f"fem {mark}", table(rows))
