@@ -22,9 +22,10 @@ struct Bending {
 Bending bend(double h, int points) {
   constexpr double length = 4.0, depth = 1.0, density = 1050.0, heavy = 1e6;
   ParticleSet p;
-  p.materials = {material("neo_hookean", {{"youngs_modulus", 1e6}, {"poisson_ratio", 0.3}})};
+  // The clamp is a material of its own, as debris is told by the density of its material.
+  p.materials.assign(2, material("neo_hookean", {{"youngs_modulus", 1e6}, {"poisson_ratio", 0.3}}));
   const double spacing = h / points;
-  fill(p, {-2.0 * h, 0.0, 0.0, depth}, spacing, heavy * density);
+  fill(p, {-2.0 * h, 0.0, 0.0, depth}, spacing, heavy * density, 1);
   const std::size_t clamped = p.size();
   fill(p, {0.0, 0.0, length, depth}, spacing, density);
   FlowConfig config = free_space(h);

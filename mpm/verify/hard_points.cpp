@@ -121,10 +121,11 @@ double stretch_to_fracture(BasisKind basis, int points) {
   constexpr double h = 0.25, length = 2.0, density = 1000.0, heavy = 1e6, speed = 0.5;
   const double spacing = h / points;
   ParticleSet p;
-  p.materials = {material("neo_hookean", {{"youngs_modulus", 1e6}, {"poisson_ratio", 0.3}})};
-  fill(p, {-3.0 * h, -h, 0.0, 3.0 * h}, spacing, heavy * density);
+  // The grips are a material of their own, as debris is told by the density of its material.
+  p.materials.assign(2, material("neo_hookean", {{"youngs_modulus", 1e6}, {"poisson_ratio", 0.3}}));
+  fill(p, {-3.0 * h, -h, 0.0, 3.0 * h}, spacing, heavy * density, 1);
   const std::size_t left = p.size();
-  fill(p, {length, -h, length + 3.0 * h, 3.0 * h}, spacing, heavy * density);
+  fill(p, {length, -h, length + 3.0 * h, 3.0 * h}, spacing, heavy * density, 1);
   const std::size_t right = p.size();
   fill(p, {0.0, 0.0, length, 2.0 * h}, spacing, density);
   FlowConfig config = free_space(h);

@@ -141,3 +141,24 @@ TEST_CASE("Points inside a concave outline") {
   CHECK_FALSE(inside(outline, 2.0, 2.0));
   CHECK_FALSE(inside(outline, 5.0, 1.0));
 }
+
+TEST_CASE("Points that left by the outlet are told of") {
+  ParticleSet p;
+  resize(p, 1);
+  p.mass[0] = 200.0;
+  FinalState end;
+  end.failed.assign(1, 0);
+  const std::vector<MpmSample> samples(1);
+  const auto warnings = [&](double points) {
+    ReportFacts f;
+    f.points_left = points;
+    f.mass_left = 20.0 * points;
+    add_warnings(f, p, end, samples, {});
+    std::string all;
+    for (const std::string& w : f.warnings) all += w;
+    return all;
+  };
+  CHECK_THAT(warnings(3.0), Catch::Matchers::Contains("3 points, 30 % of the mass, left") &&
+                                Catch::Matchers::Contains("lower bound"));
+  CHECK(warnings(0.0).find("outlet") == std::string::npos);  // control
+}
