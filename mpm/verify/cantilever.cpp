@@ -24,6 +24,7 @@ Bending bend(double h, int points) {
   ParticleSet p;
   // The clamp is a material of its own, as debris is told by the density of its material.
   p.materials.assign(2, material("neo_hookean", {{"youngs_modulus", 1e6}, {"poisson_ratio", 0.3}}));
+  p.materials[1].name = "clamp";
   const double spacing = h / points;
   fill(p, {-2.0 * h, 0.0, 0.0, depth}, spacing, heavy * density, 1);
   const std::size_t clamped = p.size();

@@ -123,6 +123,7 @@ double stretch_to_fracture(BasisKind basis, int points) {
   ParticleSet p;
   // The grips are a material of their own, as debris is told by the density of its material.
   p.materials.assign(2, material("neo_hookean", {{"youngs_modulus", 1e6}, {"poisson_ratio", 0.3}}));
+  p.materials[1].name = "grip";
   fill(p, {-3.0 * h, -h, 0.0, 3.0 * h}, spacing, heavy * density, 1);
   const std::size_t left = p.size();
   fill(p, {length, -h, length + 3.0 * h, 3.0 * h}, spacing, heavy * density, 1);
