@@ -25,8 +25,8 @@ class CheckpointWriter {
     static_assert(std::is_trivially_copyable_v<T>);
     put(&x, sizeof x);
   }
-  template <class T>
-  void array(const std::vector<T>& x) {
+  template <class T, class Allocator>
+  void array(const std::vector<T, Allocator>& x) {
     static_assert(std::is_trivially_copyable_v<T>);
     value(std::uint64_t{x.size()});
     put(x.data(), x.size() * sizeof(T));
@@ -50,8 +50,8 @@ class CheckpointReader {
     static_assert(std::is_trivially_copyable_v<T>);
     take(&x, sizeof x);
   }
-  template <class T>
-  void array(std::vector<T>& x) {
+  template <class T, class Allocator>
+  void array(std::vector<T, Allocator>& x) {
     static_assert(std::is_trivially_copyable_v<T>);
     std::uint64_t size = 0;
     value(size);

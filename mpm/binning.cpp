@@ -31,8 +31,8 @@ Coordinate<Dim> unpack(std::int64_t key) {
   return c;
 }
 
-template <class T>
-void permute(std::vector<T>& a, const std::vector<std::int32_t>& order, std::vector<T>& scratch) {
+template <class Array>
+void permute(Array& a, const std::vector<std::int32_t>& order, Array& scratch) {
   scratch.resize(a.size());
   for (std::size_t i = 0; i < a.size(); ++i) scratch[i] = a[order[i]];
   a.swap(scratch);
@@ -126,10 +126,10 @@ void bin_points(Points<Dim>& p, Grid<Dim>& grid, Tiling<Dim>& tiling, double bas
   }
   sort_by_place(scratch, power<Dim>(B) * materials * std::int64_t(scratch.blocks.size()));
 
-  std::vector<std::vector<double>*> reals;
+  std::vector<StaggeredArray<double>*> reals;
   std::vector<std::vector<std::int32_t>*> integers;
   visit_arrays(p, [&](auto& array) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(array)>, std::vector<double>>)
+    if constexpr (std::is_same_v<std::decay_t<decltype(array)>, StaggeredArray<double>>)
       reals.push_back(&array);
     else
       integers.push_back(&array);

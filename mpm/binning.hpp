@@ -11,7 +11,7 @@ struct BinningScratch {
   std::vector<std::int64_t> place;   ///< rank by (tile, material, cell)
   std::vector<std::int32_t> order;
   struct Copy {
-    std::vector<double> real;
+    StaggeredArray<double> real;
     std::vector<std::int32_t> integer;
   };
   std::vector<Copy> copy{1};  ///< one per thread that may permute arrays

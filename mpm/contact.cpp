@@ -61,7 +61,7 @@ double push(Contact<Dim>& c, std::int32_t p, Hold hold,
 /// answer at once; the others are swept until the corrections are small, from the impulses as they
 /// are.
 template <int Dim>
-void solve(const std::vector<Node>& nodes, Contact<Dim>& c, double full_mass, Hold hold,
+void solve(const StaggeredArray<Node>& nodes, Contact<Dim>& c, double full_mass, Hold hold,
            std::vector<typename Contact<Dim>::Vector>& impulse) noexcept {
   using L = NodeLayout<Dim>;
   const double floor = kMassFloor * full_mass;
@@ -123,7 +123,7 @@ void solve(const std::vector<Node>& nodes, Contact<Dim>& c, double full_mass, Ho
 }  // namespace
 
 template <int Dim>
-void push_out(const std::vector<Node>& nodes, Contact<Dim>& c, double full_mass,
+void push_out(const StaggeredArray<Node>& nodes, Contact<Dim>& c, double full_mass,
               Hold hold) noexcept {
   std::fill(c.fresh.begin(), c.fresh.end(), typename Contact<Dim>::Vector{});
   solve(nodes, c, full_mass, hold, c.fresh);
@@ -189,9 +189,9 @@ GridWork<Dim> hold_at_walls(Grid<Dim>& grid, Contact<Dim>& c, const MomentumSett
   return work;
 }
 
-#define FLOWSLIDE_CONTACT(DIM)                                                                  \
-  template void push_out<DIM>(const std::vector<Node>&, Contact<DIM>&, double, Hold) noexcept;  \
-  template GridWork<DIM> hold_at_walls<DIM>(Grid<DIM>&, Contact<DIM>&, const MomentumSettings&, \
+#define FLOWSLIDE_CONTACT(DIM)                                                                    \
+  template void push_out<DIM>(const StaggeredArray<Node>&, Contact<DIM>&, double, Hold) noexcept; \
+  template GridWork<DIM> hold_at_walls<DIM>(Grid<DIM>&, Contact<DIM>&, const MomentumSettings&,   \
                                             double) noexcept;
 FLOWSLIDE_CONTACT(2)
 FLOWSLIDE_CONTACT(3)

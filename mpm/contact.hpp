@@ -54,7 +54,7 @@ void place_walls(const Grid<Dim>& grid, const Ground& ground, const Rollers& rol
 /// Finds velocities of the contact nodes that enter no wall point, from the velocities and masses
 /// in `nodes`; they are left in contact.velocity.
 template <int Dim>
-void push_out(const std::vector<Node>& nodes, Contact<Dim>& contact, double full_mass,
+void push_out(const StaggeredArray<Node>& nodes, Contact<Dim>& contact, double full_mass,
               Hold hold) noexcept;
 
 /// Corrects the velocities after the momentum step; returns the work of all forces along the

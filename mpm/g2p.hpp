@@ -98,7 +98,7 @@ template <int Dim, class Basis, class Fetch>
 template <int Dim, class Basis, Transfer kTransfer>
 [[gnu::flatten]] void gather_tile(Points<Dim>& p, const Tile<Dim>& tile, const Grid<Dim>& grid,
                                   double dt, double keep,
-                                  std::array<std::vector<double>, Dim>& moved,
+                                  std::array<StaggeredArray<double>, Dim>& moved,
                                   TileScratch<Dim>& scratch) {
   constexpr int W = kLocalWidth<Dim, Basis>;
   using L = NodeLayout<Dim>;

@@ -1,4 +1,6 @@
 #pragma once
+#include "core/staggered_array.hpp"
+
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -43,7 +45,7 @@ struct Grid {
   double h = 0.0;                       ///< spacing [m]
   std::array<double, Dim> origin{};     ///< position of node 0 [m]
   std::vector<Coordinate<Dim>> blocks;  ///< active blocks, ascending
-  std::vector<Node> nodes;              ///< kBlockNodes per block
+  StaggeredArray<Node> nodes;           ///< kBlockNodes per block
 };
 
 /// A tile is a block that owns points. They may have drifted up to one cell out of it.

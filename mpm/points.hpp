@@ -1,4 +1,5 @@
 #pragma once
+#include "core/staggered_array.hpp"
 #include "core/voigt.hpp"
 
 #include <array>
@@ -14,7 +15,7 @@ inline constexpr int kMaxState = 4;
 
 template <int Dim>
 struct Points {
-  using Array = std::vector<double>;
+  using Array = StaggeredArray<double>;
   std::array<Array, Dim> x;              ///< position [m]
   std::array<Array, Dim> v;              ///< velocity [m/s]
   std::array<Array, Dim * Dim> c;        ///< affine velocity field, row-major [1/s]

@@ -20,7 +20,7 @@ template <int Dim, class Basis>
 void map_velocities(Simulation<Dim>& s, StepScratch<Dim>& scratch, int thread) {
   using L = NodeLayout<Dim>;
   const auto blocks = static_cast<std::int32_t>(s.grid.blocks.size());
-  std::vector<Node>& nodes = scratch.second;
+  StaggeredArray<Node>& nodes = scratch.second;
   take_turns(scratch.groups, thread, [&](std::int32_t i) {
     scatter_tile<Dim, Basis, Scatter::momentum>(s.points, s.tiling.tiles[i], nullptr, nullptr,
                                                 s.grid, window_of<Dim, Basis>(scratch, i));
@@ -46,7 +46,8 @@ void map_velocities(Simulation<Dim>& s, StepScratch<Dim>& scratch, int thread) {
 
 /// Corrects the velocities in `nodes` at the walls; the impulses count in `work`.
 template <int Dim>
-void keep_to_walls(std::vector<Node>& nodes, Simulation<Dim>& s, Hold hold, GridWork<Dim>& work) {
+void keep_to_walls(StaggeredArray<Node>& nodes, Simulation<Dim>& s, Hold hold,
+                   GridWork<Dim>& work) {
   using L = NodeLayout<Dim>;
   push_out(nodes, s.contact, s.full_mass, hold);
   for (std::size_t k = 0; k < s.contact.nodes.size(); ++k) {
@@ -65,7 +66,7 @@ template <int Dim, class Basis>
 void approach_full_mass(Simulation<Dim>& s, StepScratch<Dim>& scratch, int thread) {
   using L = NodeLayout<Dim>;
   const auto blocks = static_cast<std::int32_t>(s.grid.blocks.size());
-  std::vector<Node>&rest = scratch.second, &mapped = scratch.third;
+  StaggeredArray<Node>&rest = scratch.second, &mapped = scratch.third;
   TileScratch<Dim>& mine = scratch.tile[thread];
   const double floor = kMassFloor * s.full_mass;
 #pragma omp for schedule(static)

@@ -58,7 +58,7 @@ struct Simulation {
   std::int64_t step = 0;
   double drift = 0.0;   ///< bound of what any point moved since the points were binned [m]
   double binned = 0.0;  ///< when that was [s]
-  StressWork last;     ///< of the last step; decides the next dt
+  StressWork last;      ///< of the last step; decides the next dt
   Balance<Dim> balance;
 
   [[nodiscard]] bool averages(std::int32_t material) const {
@@ -71,15 +71,15 @@ template <int Dim>
 struct StepScratch {
   BinningScratch binning;
   std::array<Group, 2> groups;          ///< tiles apart from walls, tiles that touch a contact node
-  std::vector<Node> windows;            ///< per tile what its points give to their nodes
+  StaggeredArray<Node> windows;         ///< per tile what its points give to their nodes
   std::vector<std::int32_t> span;       ///< per point, where it was when it was scattered
   bool scattered = false;               ///< windows hold the present points; false after changes
   std::vector<TileScratch<Dim>> tile;   ///< per thread
   std::vector<StressWork> stress_work;  ///< per tile
   std::vector<GridWork<Dim>> grid_work;  ///< per block
   GridWork<Dim> contact_work;
-  std::vector<Node> second, third;  ///< as grid.nodes, where update or transfer need them
-  std::array<std::vector<double>, Dim> moved;  ///< new positions of musl [m]
+  StaggeredArray<Node> second, third;  ///< as grid.nodes, where update or transfer need them
+  std::array<StaggeredArray<double>, Dim> moved;  ///< new positions of musl [m]
   explicit StepScratch(int threads) : tile(threads) {
     for (Group& group : groups) group.shares.resize(threads);
     binning.copy.resize(threads);

@@ -73,7 +73,7 @@ void add_loads(const Simulation<Dim>& s, StepScratch<Dim>& scratch) noexcept {
 
 template <int Dim, class Basis>
 void gather_points(Simulation<Dim>& s, const Tile<Dim>& tile, double keep,
-                   std::array<std::vector<double>, Dim>& moved, TileScratch<Dim>& mine) {
+                   std::array<StaggeredArray<double>, Dim>& moved, TileScratch<Dim>& mine) {
   const auto gather = [&]<Transfer kTransfer>(std::integral_constant<Transfer, kTransfer>) {
     gather_tile<Dim, Basis, kTransfer>(s.points, tile, s.grid, s.dt, keep, moved, mine);
   };

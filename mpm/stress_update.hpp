@@ -1,60 +1,48 @@
 #pragma once
 #include "constitutive/gap.hpp"
+#include "core/pack_pair.hpp"
 #include "mpm/rotation.hpp"
 #include "mpm/stress.hpp"
 
 #include <bit>
 #include <cmath>
-#include <type_traits>
 
 /// update_stress for every law; included by the files that instantiate it.
 namespace flowslide::mpm {
 
-/// Laws run on a Pack of points, unless they iterate and say so with `per_point`.
-template <class M>
-using Lanes = std::conditional_t < requires {
-  M::per_point;
+/// What a law runs on at once: a Pack of points; one, if it iterates and says so with `per_point`;
+/// two Packs in three dimensions, if it says with `long_chain_3d` that its operations wait for each
+/// other.
+template <int Dim, class M>
+constexpr auto lanes_of() {
+  if constexpr (requires { M::per_point; })
+    return double{};
+  else if constexpr (Dim == 3 && requires { M::long_chain_3d; })
+    return PackPair{};
+  else
+    return Pack{};
 }
-, double, Pack > ;
-
-/// True in the first n lanes: those beyond repeat a point and must not be counted twice.
-template <class T>
-auto counted_lanes(int n) noexcept {
-  if constexpr (std::is_same_v<T, Pack>) {
-    Pack lane;
-    for (int i = 0; i < Pack::lanes; ++i) lane.v[i] = i;
-    return lane < Pack(double(n));
-  } else {
-    return n > 0;
-  }
-}
+template <int Dim, class M>
+using Lanes = decltype(lanes_of<Dim, M>());
 
 template <int Dim, class M>
 [[gnu::flatten]] StressWork update_run(Points<Dim>& p, const Tile<Dim>& tile,
                                        const MaterialRun& run, const SolverMaterial& material,
                                        const typename M::Constants& constants, double dt,
                                        double modulus, const TileScratch<Dim>& s) noexcept {
-  using T = Lanes<M>;
+  using T = Lanes<Dim, M>;
   using State = typename M::template StateOf<T>;
   constexpr int V = kVoigt<Dim>, S = static_cast<int>(M::state_names.size());
-  constexpr int width = std::is_same_v<T, Pack> ? Pack::lanes : 1;
+  constexpr int width = kLanes<T>;
   StressWork work;
   T wave2 = 0.0, speed2 = 0.0, strain2 = 0.0, power_start = 0.0, power_end = 0.0;
   for (std::int32_t q = run.first; q < run.last; q += width) {
     const int n = std::min<int>(width, run.last - q);
     const std::int32_t k = q - tile.first;
-    const auto read = [&](const std::vector<double>& array, std::int32_t at) {
-      if constexpr (std::is_same_v<T, Pack>)
-        return load_pack(array.data() + at, n);
-      else
-        return array[at];
+    const auto read = [&](const auto& array, std::int32_t at) {
+      return load_lanes<T>(array.data() + at, n);
     };
-    const auto write = [&](std::vector<double>& array, T value) {
-      if constexpr (std::is_same_v<T, Pack>)
-        store_pack(array.data() + q, value, n);
-      else
-        array[q] = value;
-    };
+    const auto write = [&](auto& array, T value) { store_lanes(array.data() + q, value, n); };
     std::array<T, Dim * Dim> l;
     unroll<Dim * Dim>([&](auto i) { l[i] = read(s.gradient[i], k); });
     Stress<Dim, T> sigma;
@@ -91,7 +79,7 @@ template <int Dim, class M>
       present = M::template present_modulus<Dim>(constants, result.state, result.stress);
     else if constexpr (requires { result.state.gap; })
       present = modulus_with_gap(modulus, material.elastic.bulk, result.state.gap);
-    wave2 = max(wave2, present * new_volume / read(p.mass, q));
+    wave2 = max(wave2, present * new_volume * reciprocal(read(p.mass, q)));
     T v2 = 0.0, l2 = 0.0;
     unroll<Dim>([&](auto d) {
       const T v = read(p.v[d], q);
@@ -100,7 +88,8 @@ template <int Dim, class M>
     for (int i = 0; i < Dim * Dim; ++i) l2 += l[i] * l[i];
     speed2 = max(speed2, v2);
     strain2 = max(strain2, l2);
-    const auto counted = counted_lanes<T>(n);
+    // Lanes beyond n repeat a point.
+    const auto counted = first_lanes<T>(n);
     power_start += select(counted, volume * work_start, T(0.0));
     power_end += select(counted, new_volume * work_end, T(0.0));
   }

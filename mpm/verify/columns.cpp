@@ -42,7 +42,7 @@ double surface(const Points<2>& p, double x, double cell) {
 
 /// Front as the x beyond which `share` of the mass lies, plus half a point.
 double front(const Points<2>& p, double cell, double share) {
-  std::vector<double> x = p.x[0];
+  std::vector<double> x(p.x[0].begin(), p.x[0].end());
   const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(x.size()));
   std::nth_element(x.begin(), x.begin() + rank, x.end(), std::greater<>());
   return x[static_cast<std::size_t>(rank)] + 0.25 * cell;

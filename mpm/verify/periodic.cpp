@@ -49,7 +49,7 @@ void PeriodicStrip::copy() {
       wrapped = true;
     }
     visit_arrays(p, [&](auto& array) {
-      if constexpr (std::is_same_v<std::decay_t<decltype(array)>, std::vector<double>>)
+      if constexpr (std::is_same_v<std::decay_t<decltype(array)>, StaggeredArray<double>>)
         array[left] = array[right] = array[own];
     });
     p.x[0][left] -= period_;

@@ -36,7 +36,7 @@ Slide slide(const DamScene& scene, double end) {
   while (s.time < end) advance(s, scratch);
   std::vector<double> buffer;
   const MpmSample now = sample(s, start, std::vector<bool>(s.materials.size(), true), buffer);
-  std::vector<double> x = s.points.x[0];
+  std::vector<double> x(s.points.x[0].begin(), s.points.x[0].end());
   const auto at = x.begin() + static_cast<std::ptrdiff_t>(x.size() - x.size() / 100);
   std::nth_element(x.begin(), at, x.end());
   return {*at, centre() - before, now.energy_error};

@@ -57,9 +57,9 @@ void interrupt_once(const FlowPaths& paths) {
   REQUIRE_THROWS_AS(run_flow(column(), flow_config(), paths, 1, progress), Interrupted);
 }
 
-template <class T>
-bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+template <class Array>
+bool same_bits(const Array& a, const Array& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
 }
 
 }  // namespace
