@@ -15,6 +15,7 @@ namespace flowslide {
 /// part of its state and stays constant. docs/theory/mohr-coulomb.md
 struct MohrCoulomb {
   static constexpr std::string_view name = "mohr_coulomb";
+  static constexpr bool long_chain_3d = true;  ///< of principal axes and regions
   struct Params {
     double youngs_modulus = kUnset;        ///< E [Pa]
     double poisson_ratio = kUnset;         ///< nu [-]
@@ -73,10 +74,12 @@ struct MohrCoulomb {
     const T phi = c.friction + c.friction_change * degree;
     const T cohesion = c.cohesion + c.cohesion_change * degree;
     const T sin_phi = sine(phi);
-    const T cos_phi = sqrt(1.0 - sin_phi * sin_phi);
-    const T one_minus = 1.0 - sin_phi;
-    const T apex = select(sin_phi > T(1e-6), cohesion * cos_phi / sin_phi, cohesion);
-    return {(1.0 + sin_phi) / one_minus, c.m, 2.0 * cohesion * cos_phi / one_minus,
+    const T across = cohesion * quick_sqrt(1.0 - sin_phi * sin_phi);  // c cos phi
+    // One division for two: by sin phi and by 1 - sin phi.
+    const T one_minus = 1.0 - sin_phi, slope = max(T(1e-6), sin_phi);
+    const T inverse = reciprocal(one_minus * slope), over_minus = inverse * slope;
+    const T apex = select(sin_phi > T(1e-6), across * (inverse * one_minus), cohesion);
+    return {(1.0 + sin_phi) * over_minus, c.m, 2.0 * across * over_minus,
             min(T(c.tension_cutoff), apex)};
   }
 
@@ -105,7 +108,8 @@ struct MohrCoulomb {
         const T d1 = t.hi - r.s1, d2 = t.mid - r.s2, d3 = t.lo - r.s3;
         const T mean = (d1 + d2 + d3) * (1.0 / 3.0);
         const T e1 = d1 - mean, e2 = d2 - mean, e3 = d3 - mean;
-        deviatoric = sqrt(2.0 / 3.0 * (e1 * e1 + e2 * e2 + e3 * e3)) * (0.5 / c.elastic.shear);
+        deviatoric =
+            quick_sqrt(2.0 / 3.0 * (e1 * e1 + e2 * e2 + e3 * e3)) * (0.5 / c.elastic.shear);
         // Only what opens in tension closes again; dilation of shear does not.
         const auto in_tension = r.s1 >= y.tension - 1e-9 * (y.tension + y.sigma_c);
         opened = select(in_tension, max(T(0.0), mean) * (1.0 / c.elastic.bulk), T(0.0));
@@ -126,7 +130,7 @@ struct MohrCoulomb {
   /// s1 - s3 <= 2 tau with tau = sqrt(J2).
   template <int Dim, class T>
   static auto surely_elastic(const MohrCoulombSurface<T>& y, const Stress<Dim, T>& s) noexcept {
-    const T tau = sqrt(j2(s)), highest = mean_stress(s) + 1.1547005383792517 * tau;
+    const T tau = quick_sqrt(j2(s)), highest = mean_stress(s) + 1.1547005383792517 * tau;
     return (y.k - 1.0) * highest + 2.0 * tau <= y.sigma_c && highest <= y.tension;
   }
   /// sin on [0, 1] to 1e-15 by its Taylor series: the library's does not run on eight lanes.

@@ -42,22 +42,24 @@ template <class T>
 
   // Face.
   const T f13 = y.k * t.s1 - t.s3 - y.sigma_c;
-  const T x = max(T(0.0), f13) / a_db;
+  const T q1 = y.k * common - db_three, det1 = a_db * a_db - q1 * q1;
+  const T q2 = y.k * db_one - common, det2 = a_db * a_db - q2 * q2;
+  // One division for three: a_db, det1 and det2 are positive.
+  const T inverse = reciprocal(a_db * det1 * det2);
+  const T x = max(T(0.0), f13) * (inverse * det1 * det2);
   const Principal<T> face{t.s1 - x * db_one, t.s2 - x * common, t.s3 - x * db_three};
 
   // Edge s1 = s2: planes 13 and 23 together, multipliers from a symmetric 2 x 2 system.
   const T f23 = y.k * t.s2 - t.s3 - y.sigma_c;
-  const T q1 = y.k * common - db_three;
-  const T det1 = a_db * a_db - q1 * q1;
-  const T xa = (a_db * f13 - q1 * f23) / det1, xb = (a_db * f23 - q1 * f13) / det1;
+  const T over_det1 = inverse * a_db * det2;
+  const T xa = (a_db * f13 - q1 * f23) * over_det1, xb = (a_db * f23 - q1 * f13) * over_det1;
   const T upper = 0.5 * ((t.s1 - xa * db_one - xb * common) + (t.s2 - xb * db_one - xa * common));
   const Principal<T> edge12{upper, upper, y.k * upper - y.sigma_c};
 
   // Edge s2 = s3: planes 13 and 12.
   const T f12 = y.k * t.s1 - t.s2 - y.sigma_c;
-  const T q2 = y.k * db_one - common;
-  const T det2 = a_db * a_db - q2 * q2;
-  const T xc = (a_db * f13 - q2 * f12) / det2, xd = (a_db * f12 - q2 * f13) / det2;
+  const T over_det2 = inverse * a_db * det1;
+  const T xc = (a_db * f13 - q2 * f12) * over_det2, xd = (a_db * f12 - q2 * f13) * over_det2;
   const T top = t.s1 - (xc + xd) * db_one;
   const T lower = y.k * top - y.sigma_c;
   const Principal<T> edge23{top, lower, lower};
@@ -82,8 +84,8 @@ template <class T>
 
   // Where tension and shear meet: s1 and s3 are fixed, s2 follows from both flow directions.
   const T s3_corner = y.k * st - y.sigma_c;
-  const T xm = ((t.s1 - st) * lambda - (t.s3 - s3_corner) * (lambda + two_g)) /
-               (2.0 * two_g * (lambda + e.shear));
+  const double over_both = 1.0 / (2.0 * two_g * (lambda + e.shear));
+  const T xm = ((t.s1 - st) * lambda - (t.s3 - s3_corner) * (lambda + two_g)) * over_both;
   const T s2_corner = t.s2 - (t.s3 - s3_corner) - two_g * xm;
   const Principal<T> corner{st, min(st, max(s3_corner, s2_corner)), s3_corner};
 

@@ -109,8 +109,24 @@ inline Pack inverse_sqrt(Pack a) {
   return 1.0 / sqrt(a);
 #endif
 }
+inline double inverse_sqrt(double a) { return 1.0 / std::sqrt(a); }
+/// 1 / a for positive normal numbers, to a few units in the last place.
+inline Pack reciprocal(Pack a) {
+#if defined(__AVX512F__)
+  Pack r(Pack::Vector(_mm512_mask_rcp14_pd(_mm512_setzero_pd(), 0xff, __m512d(a.v))));
+  r = r * (2.0 - a * r);
+  return r * (2.0 - a * r);
+#else
+  return 1.0 / a;
+#endif
+}
+inline double reciprocal(double a) { return 1.0 / a; }
 inline double sqrt(double a) { return std::sqrt(a); }
 inline double floor(double a) { return std::floor(a); }
+
+/// sqrt(a) of a >= 0 to a few units in the last place; 0 for a far below 1e-280.
+inline Pack quick_sqrt(Pack a) { return a * inverse_sqrt(a + 1e-280); }
+inline double quick_sqrt(double a) { return std::sqrt(a); }
 
 /// Access to `count` (1 to `lanes`) neighbouring numbers; lanes beyond repeat the last one on
 /// loading and are dropped on storing, so that the end of an array needs no padding.
@@ -155,6 +171,33 @@ inline double max_lanes(Pack x) {
   double s = x.v[0];
   for (int i = 1; i < Pack::lanes; ++i) s = max(s, x.v[i]);
   return s;
+}
+
+/// Points that go through one operation on a T, and access to them as above.
+template <class T>
+inline constexpr int kLanes = 1;
+template <>
+inline constexpr int kLanes<Pack> = Pack::lanes;
+template <class T>
+T load_lanes(const double* from, int) {
+  return *from;
+}
+template <>
+inline Pack load_lanes<Pack>(const double* from, int count) {
+  return load_pack(from, count);
+}
+inline void store_lanes(double* to, double x, int) { *to = x; }
+inline void store_lanes(double* to, Pack x, int count) { store_pack(to, x, count); }
+/// True in the first n lanes.
+template <class T>
+auto first_lanes(int n) {
+  return n > 0;
+}
+template <>
+inline auto first_lanes<Pack>(int n) {
+  Pack lane;
+  for (int i = 0; i < Pack::lanes; ++i) lane.v[i] = i;
+  return lane < Pack(double(n));
 }
 
 }  // namespace flowslide

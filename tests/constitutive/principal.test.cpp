@@ -1,3 +1,4 @@
+#include "core/pack_pair.hpp"
 #include "tests/constitutive/sample_laws.hpp"
 
 #include <catch2/catch.hpp>
@@ -81,7 +82,11 @@ TEST_CASE("Lanes of a 3D map are the points one by one, equal principal stresses
       return Sorted3<T>{min(t.hi, T(1.0)), min(t.mid, T(1.0)), min(t.lo, T(1.0))};
     };
     const Stress<3, Pack> r = map_principal(s, cap);
+    Stress<3, PackPair> pair;
+    for (int c = 0; c < 6; ++c) pair[c] = {s[c], -s[c]};
+    const Stress<3, PackPair> both = map_principal(pair, cap);
     for (int k = 0; k < Pack::lanes; ++k) {
+      for (int c = 0; c < 6; ++c) REQUIRE(both[c].a[k] == r[c][k]);
       const Stress<3> one = map_principal(lane[k], cap);
       for (int c = 0; c < 6; ++c)
         REQUIRE(std::abs(r[c][k] - one[c]) < 1e-12 * (1.0 + tensor(lane[k]).norm()));
