@@ -23,8 +23,7 @@ template <class T>
 template <class T, class Map>
 [[nodiscard]] Stress<2, T> map_principal(const Stress<2, T>& s, Map&& map) noexcept {
   const T centre = 0.5 * (s[0] + s[1]), half = 0.5 * (s[0] - s[1]);
-  const T square = half * half + s[3] * s[3], over_radius = inverse_sqrt(square + 1e-280);
-  const T radius = square * over_radius;
+  const T radius = quick_sqrt(half * half + s[3] * s[3]);
   const T a = centre + radius, b = centre - radius, z = s[2];
   const Sorted3<T> r = map(sort3(a, b, z));
   const auto z_high = z > a;
@@ -32,7 +31,7 @@ template <class T, class Map>
   const T new_a = select(z_high, r.mid, r.hi);
   const T new_b = select(z_low, r.mid, r.lo);
   const T new_centre = 0.5 * (new_a + new_b);
-  const T scale = 0.5 * (new_a - new_b) * over_radius;
+  const T scale = 0.5 * (new_a - new_b) * reciprocal(max(radius, T(1e-140)));
   Stress<2, T> out;
   out[0] = new_centre + scale * half;
   out[1] = new_centre - scale * half;

@@ -77,10 +77,11 @@ struct ResidualStrength {
     }
 
     // (ii) radial return to q = sqrt(3) s_u with the strength at the start of the step.
-    const T tau = sqrt(j2_trial);
-    const T limit = present_strength(c, old);
-    const T over = max(T(0.0), tau - limit);
-    const T scale = select(over > T(0.0), limit / tau, T(1.0));
+    const T limit = present_strength(c, old), square = limit * limit;
+    const auto yields = j2_trial > square;
+    const T over_tau = inverse_sqrt(max(max(j2_trial, square), T(1e-280)));
+    const T over = select(yields, j2_trial * over_tau - limit, T(0.0));
+    const T scale = select(yields, limit * over_tau, T(1.0));
 
     // (iii) tension cut-off on the mean stress; what opens is remembered.
     const T excess = max(T(0.0), p_trial - c.tension_cutoff);

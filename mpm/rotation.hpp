@@ -11,7 +11,7 @@ namespace flowslide::mpm {
 /// `spin_dt` is W_yx dt, the in-plane rotation angle of the step, counter-clockwise [rad].
 template <class T>
 Stress<2, T> rotate(const Stress<2, T>& s, const T& spin_dt) noexcept {
-  const T t = 0.5 * spin_dt, denominator = 1.0 / (1.0 + t * t);
+  const T t = 0.5 * spin_dt, denominator = reciprocal(1.0 + t * t);
   const T c = (1.0 - t * t) * denominator, n = 2.0 * t * denominator;
   const T cc = c * c, nn = n * n, cn = c * n;
   Stress<2, T> r;
@@ -27,7 +27,7 @@ template <class T>
 Stress<3, T> rotate(const Stress<3, T>& s, const std::array<T, 3>& w) noexcept {
   // Cayley transform of the skew matrix of w, written for a vector a = w / 2.
   const T ax = 0.5 * w[0], ay = 0.5 * w[1], az = 0.5 * w[2];
-  const T k = 2.0 / (1.0 + (ax * ax + ay * ay + az * az));
+  const T k = 2.0 * reciprocal(1.0 + (ax * ax + ay * ay + az * az));
   const T r[3][3] = {{1.0 - k * (ay * ay + az * az), k * (ax * ay - az), k * (ax * az + ay)},
                      {k * (ax * ay + az), 1.0 - k * (ax * ax + az * az), k * (ay * az - ax)},
                      {k * (ax * az - ay), k * (ay * az + ax), 1.0 - k * (ax * ax + ay * ay)}};
