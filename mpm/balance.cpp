@@ -117,7 +117,8 @@ MpmSample sample(const Simulation<Dim>& s, const Reference<Dim>& reference,
   r.mass_error = std::abs(now.mass + left.mass - start.mass) / start.mass;
   r.max_speed = std::sqrt(s.last.max_speed2);
   r.dt = s.dt;
-  r.active_particles = 1.0;
+  r.active_particles =
+      s.sleep.count > 0 ? 1.0 - double(s.sleep.count) / double(s.points.size()) : 1.0;
   r.points_left = static_cast<double>(s.gone.size());
   r.mass_left = left.mass;
   r.kinetic_left = left.kinetic;

@@ -6,7 +6,7 @@ namespace flowslide::mpm {
 namespace {
 
 // Changes whenever the list of fields below changes.
-constexpr std::uint64_t kFields = 0x666c6f77636b7032;
+constexpr std::uint64_t kFields = 0x666c6f77636b7033;
 
 /// One list of fields for both directions: `Archive` writes or reads each.
 template <class Archive, class Sim, class Run>
@@ -35,25 +35,41 @@ void transfer_fields(Archive& a, Sim& s, Run& r) {
   a.array(s.tiling.run_first);
   a.array(s.tiling.runs);
   a.array(s.contact.impulse);
+  a.value(s.contact.absorbing.supported);
+  a.array(s.contact.absorbing.dashpots);
+  a.value(s.sleep.next_look);
+  a.value(s.sleep.count);
+  for (auto& x : s.sleep.place) a.array(x);
+  a.array(s.sleep.since);
+  a.array(s.sleep.asleep);
   visit_arrays(s.points, [&](auto& array) { a.array(array); });
   visit_arrays(s.gone, [&](auto& array) { a.array(array); });
 }
 
 }  // namespace
 
-void write_checkpoint(const std::filesystem::path& path, const Simulation<2>& s,
+template <int Dim>
+void write_checkpoint(const std::filesystem::path& path, const Simulation<Dim>& s,
                       const RunState& run) {
   CheckpointWriter out(path, kFields);
   transfer_fields(out, s, run);
   out.finish();
 }
 
-void read_checkpoint(const std::filesystem::path& path, Simulation<2>& s, RunState& run) {
+template <int Dim>
+void read_checkpoint(const std::filesystem::path& path, Simulation<Dim>& s, RunState& run) {
   const std::size_t points = s.points.size();
   CheckpointReader in(path, kFields);
   transfer_fields(in, s, run);
   in.finish();
   if (s.points.size() + s.gone.size() != points) in.refuse("it has another number of points");
 }
+
+template void write_checkpoint<2>(const std::filesystem::path&, const Simulation<2>&,
+                                  const RunState&);
+template void write_checkpoint<3>(const std::filesystem::path&, const Simulation<3>&,
+                                  const RunState&);
+template void read_checkpoint<2>(const std::filesystem::path&, Simulation<2>&, RunState&);
+template void read_checkpoint<3>(const std::filesystem::path&, Simulation<3>&, RunState&);
 
 }  // namespace flowslide::mpm

@@ -15,18 +15,20 @@ struct RunState {
   double next_frame = 0.0, next_sample = 0.0;  ///< [s]
   double peak_kinetic = 0.0;                   ///< [J]
   double mass_start = 0.0, kinetic_start = 0.0, potential_start = 0.0, recoverable_start = 0.0;
-  std::array<double, 2> momentum_start{};
+  std::array<double, 3> momentum_start{};
   double first_dt = 0.0;                      ///< [s]
-  std::int64_t updates = 0;                   ///< sum over the steps of the points in them
+  std::int64_t updates = 0;                   ///< sum over the steps of the points awake in them
   std::vector<std::array<double, 2>> recent;  ///< (time, front) of the rest window
 };
 
 /// Atomically replaces `path`. Throws FileError.
-void write_checkpoint(const std::filesystem::path& path, const Simulation<2>& s,
+template <int Dim>
+void write_checkpoint(const std::filesystem::path& path, const Simulation<Dim>& s,
                       const RunState& run);
 
 /// Fills what a run changes; settings, materials and boundaries stay as they are. Throws FileError
 /// if the file is damaged or belongs to another number of points.
-void read_checkpoint(const std::filesystem::path& path, Simulation<2>& s, RunState& run);
+template <int Dim>
+void read_checkpoint(const std::filesystem::path& path, Simulation<Dim>& s, RunState& run);
 
 }  // namespace flowslide::mpm

@@ -1,4 +1,4 @@
-#include "mpm/contact.hpp"
+#include "mpm/contact_solve.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,15 +20,39 @@ void apply(Contact<Dim>& c, const WallPoint<Dim>& wall,
   }
 }
 
+/// A dashpot's turn: P = dt (S - Z (u0 + u)/2) with u the velocity after P, u0 that before the
+/// step.
+template <int Dim>
+double drain(Contact<Dim>& c, std::int32_t p, Ends ends, double dt,
+             typename Contact<Dim>::Vector& held) noexcept {
+  const WallPoint<Dim>& wall = c.walls[p];
+  const Dashpot<Dim>& dashpot = c.absorbing.dashpots[wall.dashpot];
+  const double kept = dashpot.kept();
+  const std::array<double, Dim> u = surface_velocity(c, wall);
+  std::array<double, Dim> change;
+  double size = 0.0;
+  for (int d = 0; d < Dim; ++d) {
+    const double half = 0.5 * dt * (wall.normal[d] != 0.0 ? dashpot.normal : dashpot.shear);
+    const double free = u[d] - c.mobility[p] * held[d];
+    const double draining =
+        (dt * kept * dashpot.support[d] - half * (c.before[wall.dashpot][d] + free)) /
+        (1.0 + half * c.mobility[p]);
+    const double impulse = ends == Ends::stop ? -free / c.mobility[p] : draining;
+    change[d] = impulse - held[d];
+    size = std::max(size, std::abs(change[d]) * c.mobility[p]);
+    held[d] = impulse;
+  }
+  apply(c, wall, change);
+  return size;
+}
+
 /// One wall point's turn: the impulse that stops the soil from entering it, within the friction
 /// cone. Returns the size of the velocity correction [m/s].
 template <int Dim>
 double push(Contact<Dim>& c, std::int32_t p, Hold hold,
             typename Contact<Dim>::Vector& held) noexcept {
   const WallPoint<Dim>& wall = c.walls[p];
-  std::array<double, Dim> u{};
-  for (std::int32_t e = wall.first; e < wall.last; ++e)
-    for (int d = 0; d < Dim; ++d) u[d] += c.weight[e] * c.velocity[c.node[e]][d];
+  const std::array<double, Dim> u = surface_velocity(c, wall);
   const double inverse = 1.0 / c.mobility[p];
   std::array<double, Dim> wanted;
   double normal = 0.0;
@@ -57,19 +81,26 @@ double push(Contact<Dim>& c, std::int32_t p, Hold hold,
   return size;
 }
 
+}  // namespace
+
 /// Impulses of all wall points that soil touches. A point that shares no node with another has its
 /// answer at once; the others are swept until the corrections are small, from the impulses as they
 /// are.
 template <int Dim>
 void solve(const StaggeredArray<Node>& nodes, Contact<Dim>& c, double full_mass, Hold hold,
-           std::vector<typename Contact<Dim>::Vector>& impulse) noexcept {
+           std::vector<typename Contact<Dim>::Vector>& impulse, Ends ends, double dt) noexcept {
   using L = NodeLayout<Dim>;
+  const int first = ends == Ends::stop ? L::force : L::momentum;  // changes, or velocities
+  const auto turn = [&](std::int32_t p) {
+    return c.walls[p].dashpot < 0 ? push(c, p, hold, impulse[p])
+                                  : drain(c, p, ends, dt, impulse[p]);
+  };
   const double floor = kMassFloor * full_mass;
   for (std::size_t k = 0; k < c.nodes.size(); ++k) {
     const auto& q = nodes[c.nodes[k]].q;
     c.inverse_mass[k] = q[L::mass] > floor ? 1.0 / q[L::mass] : 0.0;
     c.uses[k] = 0;
-    for (int d = 0; d < Dim; ++d) c.velocity[k][d] = q[L::momentum + d];
+    for (int d = 0; d < Dim; ++d) c.velocity[k][d] = q[first + d];
   }
   c.active.clear();
   for (std::size_t p = 0; p < c.walls.size(); ++p) {
@@ -82,7 +113,9 @@ void solve(const StaggeredArray<Node>& nodes, Contact<Dim>& c, double full_mass,
     c.mobility[p] = mobility;
     double pushed = 0.0;
     for (int d = 0; d < Dim; ++d) pushed += c.impulse[p][d] * wall.normal[d];
-    if (touched > 0.0 && (hold != Hold::fast || wall.holds || pushed > 0.0)) {
+    const bool acts =
+        wall.dashpot < 0 ? hold != Hold::fast || wall.holds || pushed > 0.0 : ends != Ends::idle;
+    if (touched > 0.0 && acts) {
       c.active.push_back(static_cast<std::int32_t>(p));
       for (std::int32_t e = wall.first; e < wall.last; ++e) ++c.uses[c.node[e]];
     } else {
@@ -100,7 +133,7 @@ void solve(const StaggeredArray<Node>& nodes, Contact<Dim>& c, double full_mass,
       apply(c, wall, impulse[p]);
     } else {
       impulse[p] = {};
-      push(c, p, hold, impulse[p]);
+      turn(p);
     }
   }
   const auto n = static_cast<std::int32_t>(c.coupled.size());
@@ -109,7 +142,7 @@ void solve(const StaggeredArray<Node>& nodes, Contact<Dim>& c, double full_mass,
     double largest = 0.0;
     for (std::int32_t i = 0; i < n; ++i) {
       const std::int32_t p = c.coupled[count % 2 == 0 ? i : n - 1 - i];
-      largest = std::max(largest, push(c, p, hold, impulse[p]));
+      largest = std::max(largest, turn(p));
     }
     if (count == 0)
       for (const std::int32_t p : c.coupled)
@@ -120,8 +153,6 @@ void solve(const StaggeredArray<Node>& nodes, Contact<Dim>& c, double full_mass,
   }
 }
 
-}  // namespace
-
 template <int Dim>
 void push_out(const StaggeredArray<Node>& nodes, Contact<Dim>& c, double full_mass,
               Hold hold) noexcept {
@@ -129,70 +160,10 @@ void push_out(const StaggeredArray<Node>& nodes, Contact<Dim>& c, double full_ma
   solve(nodes, c, full_mass, hold, c.fresh);
 }
 
-namespace {
-
-/// Takes the local damping of the free step back: it opposes forces that walls have yet to balance.
-template <int Dim>
-void take_back_damping(Grid<Dim>& grid, const Contact<Dim>& c, const MomentumSettings& s,
-                       double floor, GridWork<Dim>& work) noexcept {
-  using L = NodeLayout<Dim>;
-  for (const std::int32_t node : c.nodes) {
-    auto& q = grid.nodes[node].q;
-    const double m = q[L::mass];
-    if (!(m > floor)) continue;
-    for (int d = 0; d < Dim; ++d) {
-      const double old = q[L::momentum + d], before = old - q[L::force + d];
-      const double total = m * q[L::force + d] / s.dt, weight = m * s.gravity[d];
-      const double load = load_on<Dim>(q, d);
-      const double pull = total / (1.0 - std::copysign(s.cundall, total * before));
-      const double change = s.dt * (pull - total) / m;
-      work.internal_end += s.dt * (pull - weight - load) * change;
-      work.gravity += 0.5 * s.dt * weight * change;
-      work.load += 0.5 * s.dt * load * change;
-      work.damping -= 0.5 * s.dt * (total - pull) * (before + old);
-      work.boundary_impulse[d] -= s.dt * (total - pull);
-      q[L::momentum + d] += change;
-      q[L::force + d] += change;
-    }
-  }
-}
-
-}  // namespace
-
-template <int Dim>
-GridWork<Dim> hold_at_walls(Grid<Dim>& grid, Contact<Dim>& c, const MomentumSettings& s,
-                            double full_mass) noexcept {
-  using L = NodeLayout<Dim>;
-  GridWork<Dim> work;
-  if (s.cundall > 0.0) take_back_damping(grid, c, s, kMassFloor * full_mass, work);
-  solve(grid.nodes, c, full_mass, Hold::contact, c.impulse);
-  for (std::size_t k = 0; k < c.nodes.size(); ++k) {
-    if (!(c.inverse_mass[k] > 0.0)) continue;
-    auto& q = grid.nodes[c.nodes[k]].q;
-    const double m = q[L::mass];
-    for (int d = 0; d < Dim; ++d) {
-      const double free = q[L::momentum + d], before = free - q[L::force + d];
-      const double held = c.velocity[k][d], weight = m * s.gravity[d];
-      const double load = load_on<Dim>(q, d);
-      const double drag = damping_force(s.cundall, m * (held - before) / s.dt, before);
-      const double after = held + s.dt * drag / m, change = after - free;
-      work.internal_end += (m * q[L::force + d] - s.dt * (weight + load)) * change;
-      work.gravity += 0.5 * s.dt * weight * change;
-      work.load += 0.5 * s.dt * load * change;
-      work.damping += 0.5 * s.dt * drag * (before + after);
-      work.boundary += 0.5 * m * (held - free) * (before + after);
-      work.boundary_impulse[d] += m * change;
-      q[L::momentum + d] = after;
-      q[L::force + d] += change;
-    }
-  }
-  return work;
-}
-
-#define FLOWSLIDE_CONTACT(DIM)                                                                    \
-  template void push_out<DIM>(const StaggeredArray<Node>&, Contact<DIM>&, double, Hold) noexcept; \
-  template GridWork<DIM> hold_at_walls<DIM>(Grid<DIM>&, Contact<DIM>&, const MomentumSettings&,   \
-                                            double) noexcept;
+#define FLOWSLIDE_CONTACT(DIM)                                                                  \
+  template void solve<DIM>(const StaggeredArray<Node>&, Contact<DIM>&, double, Hold,            \
+                           std::vector<typename Contact<DIM>::Vector>&, Ends, double) noexcept; \
+  template void push_out<DIM>(const StaggeredArray<Node>&, Contact<DIM>&, double, Hold) noexcept;
 FLOWSLIDE_CONTACT(2)
 FLOWSLIDE_CONTACT(3)
 #undef FLOWSLIDE_CONTACT

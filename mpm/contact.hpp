@@ -1,4 +1,5 @@
 #pragma once
+#include "mpm/absorbing.hpp"
 #include "mpm/boundary.hpp"
 #include "mpm/grid.hpp"
 #include "mpm/momentum.hpp"
@@ -16,6 +17,7 @@ struct WallPoint {
   std::array<double, Dim> normal{};  ///< unit, into the soil
   double friction = 0.0;             ///< Coulomb coefficient [-]
   bool holds = false;                ///< holds both ways, without friction (roller)
+  std::int32_t dashpot = -1;         ///< of an absorbing plane, into Absorbing::dashpots
   std::int32_t first = 0, last = 0;
   std::int32_t touching = 0;  ///< entries [first, touching) lie near enough to count as touched
 };
@@ -24,6 +26,7 @@ template <int Dim>
 struct Contact {
   using Vector = std::array<double, Dim>;
   std::vector<WallPoint<Dim>> walls;
+  Absorbing<Dim> absorbing;
   std::vector<std::int32_t> node;   ///< per entry, into `nodes`
   std::vector<double> weight;       ///< per entry: the node's share of the wall point's impulse
   std::vector<std::int32_t> nodes;  ///< contact nodes as indices into Grid::nodes, ascending
@@ -34,6 +37,7 @@ struct Contact {
   std::vector<Vector> impulse;     ///< per wall point, of the last step: the next one's guess [N s]
   std::vector<Vector> fresh;       ///< the same where there is no guess
   std::vector<std::int32_t> uses;  ///< per contact node: entries of active wall points
+  std::vector<Vector> before;      ///< per dashpot: velocity of the soil before the step [m/s]
   std::vector<std::int32_t> active;   ///< wall points that soil touches
   std::vector<std::int32_t> coupled;  ///< those of them that share nodes with others
 };

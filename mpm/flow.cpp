@@ -3,6 +3,7 @@
 #include "model/checkpoint_file.hpp"
 #include "mpm/balance.hpp"
 #include "mpm/checkpoint.hpp"
+#include "mpm/extrude.hpp"
 #include "mpm/load.hpp"
 
 #include <algorithm>
@@ -13,7 +14,6 @@ namespace flowslide {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using Scratch = mpm::StepScratch<2>;
 
 constexpr double kReportSeconds = 0.2;  ///< wall time between progress reports
 /// A step that shrank this much means that the state has gone wrong, not that the flow is fast.
@@ -24,7 +24,8 @@ double seconds_since(Clock::time_point t) {
 }
 
 /// The history keeps particles in order of id; the solver's `index` refers to that order.
-void index_by_id(mpm::Simulation<2>& s, const ParticleSet& particles) {
+template <int Dim>
+void index_by_id(mpm::Simulation<Dim>& s, const ParticleSet& particles) {
   std::vector<std::int32_t> order(particles.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
@@ -42,7 +43,8 @@ bool at_rest(const mpm::RunState& run, const MpmSample& now, const RestSettings&
          (*high)[1] - (*low)[1] < rest.runout_change;
 }
 
-void check_step(const mpm::Simulation<2>& s, double first_dt) {
+template <int Dim>
+void check_step(const mpm::Simulation<Dim>& s, double first_dt) {
   const bool finite =
       std::isfinite(s.last.max_speed2) && std::isfinite(s.last.max_strain) && std::isfinite(s.dt);
   if (finite && s.dt > kDtCollapse * first_dt) return;
@@ -54,29 +56,29 @@ void check_step(const mpm::Simulation<2>& s, double first_dt) {
       std::sqrt(s.last.max_speed2), s.dt, first_dt));
 }
 
-}  // namespace
-
-FlowFacts run_flow(const ParticleSet& particles, const FlowConfig& config, const FlowPaths& paths,
-                   int threads, const Progress& progress) {
-  mpm::Simulation<2> s = mpm::make_simulation(particles, config);
+template <int Dim>
+FlowFacts run_in(const ParticleSet& particles, const FlowConfig& config, const FlowPaths& paths,
+                 int threads, const Progress& progress) {
+  mpm::Simulation<Dim> s = mpm::make_simulation<Dim>(particles, config);
   index_by_id(s, particles);
-  Scratch scratch(std::max(1, threads));
+  mpm::StepScratch<Dim> scratch(std::max(1, threads));
   mpm::RunState run;
   const bool resume = std::filesystem::exists(paths.checkpoint);
   if (resume) mpm::read_checkpoint(paths.checkpoint, s, run);
   mpm::prepare(s, scratch, !resume);
   if (!resume) {
-    const mpm::PointSums<2> start = mpm::sum_points(s);
+    const mpm::PointSums<Dim> start = mpm::sum_points(s);
     run.mass_start = start.mass;
     run.kinetic_start = start.kinetic;
     run.potential_start = start.potential;
     run.recoverable_start = start.recoverable;
-    run.momentum_start = start.momentum;
+    std::copy(start.momentum.begin(), start.momentum.end(), run.momentum_start.begin());
     run.first_dt = mpm::stable_step(s);
   }
-  mpm::Reference<2> reference{{run.mass_start, run.kinetic_start, run.potential_start,
-                               run.recoverable_start, run.momentum_start, true, -1},
-                              config.toe};
+  mpm::Reference<Dim> reference{
+      {run.mass_start, run.kinetic_start, run.potential_start, run.recoverable_start, {}, true, -1},
+      config.toe};
+  std::copy_n(run.momentum_start.begin(), Dim, reference.start.momentum.begin());
   std::vector<bool> counts;
   for (const MaterialSpec& m : particles.materials) counts.push_back(m.counts_for_runout);
 
@@ -108,7 +110,7 @@ FlowFacts run_flow(const ParticleSet& particles, const FlowConfig& config, const
   for (bool done = false; !done;) {
     mpm::advance(s, scratch);
     check_step(s, run.first_dt);
-    run.updates += std::ssize(s.points.mass);
+    run.updates += std::ssize(s.points.mass) - s.sleep.count;
     done = s.time >= config.end || s.points.size() == 0;
     if (s.time >= run.next_sample || done) {
       if (mpm::any_beyond(s.outlet, s.points)) mpm::prepare(s, scratch, true);
@@ -145,8 +147,19 @@ FlowFacts run_flow(const ParticleSet& particles, const FlowConfig& config, const
   facts.end_time = s.time;
   facts.steps = s.step;
   facts.point_updates = static_cast<double>(run.updates);
+  facts.absorbed = s.balance.grid.absorbed;
   facts.updates_this_call = static_cast<double>(run.updates - first_updates);
   return facts;
+}
+
+}  // namespace
+
+FlowFacts run_flow(const ParticleSet& particles, const FlowConfig& config, const FlowPaths& paths,
+                   int threads, const Progress& progress) {
+  if (!config.extrude) return run_in<2>(particles, config, paths, threads, progress);
+  FlowConfig valley = config;
+  if (config.extrude->sides != Sides::open) valley.side_rollers = {0.0, config.extrude->width};
+  return run_in<3>(extrude(particles, config.extrude->width), valley, paths, threads, progress);
 }
 
 }  // namespace flowslide

@@ -11,6 +11,18 @@ void check(const FlowConfig& c) {
         "ground.surface: point {} lies left of point {} (x must not decrease) sort the points by x",
         i + 1, i);
   }
+  validate(!c.absorbing.left || !c.left_roller,
+           "absorbing.left and left_roller are both given (soil ends at one of them) remove one");
+  validate(!c.absorbing.right || !c.right_roller,
+           "absorbing.right and right_roller are both given (soil ends at one of them) remove one");
+  const auto& planes = c.absorbing;
+  validate(!planes.left || !planes.right || *planes.left < *planes.right,
+           "absorbing.left is not left of absorbing.right (nothing lies between them) swap them");
+  for (const auto& point : c.ground.surface)
+    validate(!planes.bottom || point[1] <= *planes.bottom - 2.0 * c.cell,
+             "ground.surface reaches up to y = {:g} m (it would hold the soil in place of "
+             "absorbing.bottom at {:g} m) lower it by two cells or more below the plane",
+             point[1], *planes.bottom);
   validate(!c.outlet.left || !c.outlet.right || *c.outlet.left < *c.outlet.right,
            "outlet.left is not left of outlet.right (nothing lies between them) swap them");
   validate(!c.outlet.bottom || !c.outlet.top || *c.outlet.bottom < *c.outlet.top,
@@ -20,6 +32,10 @@ void check(const FlowConfig& c) {
              "tractions: stretch {} has no length (it carries nothing) give its two ends", i + 1);
   validate(!c.left_roller || !c.right_roller || *c.left_roller < *c.right_roller,
            "left_roller is not left of right_roller (nothing lies between them) swap them");
+  validate(
+      !c.sleep || (c.update == mpm::Update::symplectic && c.transfer != mpm::Transfer::fmpm),
+      "sleep needs update symplectic and another transfer than fmpm (the others map all points "
+      "more than once in a step) change them or leave sleep out");
   validate(!c.side_rollers || (*c.side_rollers)[0] < (*c.side_rollers)[1],
            "the first of side_rollers is not below the second (nothing lies between them) swap "
            "them");
@@ -42,12 +58,43 @@ void Schema<RestSettings>::describe(FieldVisitor& v, RestSettings& c) {
              "length of the window; also the shortest run");
 }
 
+void Schema<TerrainSettings>::describe(FieldVisitor& v, TerrainSettings& c) {
+  v.file("file", c.file, "ESRI ASCII grid of heights (.asc); level beyond its edges");
+  v.tuple("origin", c.origin, Dim::length, "map coordinates of x = y = 0");
+  v.quantity("heading", c.heading, Dim::angle, {},
+             "direction of x on the map, counter-clockwise from its first axis (east)");
+  v.quantity("level", c.level, Dim::length, {}, "height on the map that is z = 0");
+}
+
 void Schema<GroundSettings>::describe(FieldVisitor& v, GroundSettings& c) {
   static constexpr std::array<FieldVisitor::Column, 2> columns{
       {{"x", Dim::length}, {"y", Dim::length}}};
   v.rows("surface", c.surface, columns,
          "surface from left to right, level beyond its ends; a repeated x is a vertical step");
+  v.group("terrain", c.terrain, Schema<TerrainSettings>::doc);
   v.quantity("friction", c.friction, Dim::none, {.min = 0.0}, "Coulomb friction coefficient");
+}
+
+void Schema<AbsorbingSettings>::describe(FieldVisitor& v, AbsorbingSettings& c) {
+  v.quantity("left", c.left, Dim::length, {}, "x of an upright plane upstream");
+  v.quantity("right", c.right, Dim::length, {}, "x of an upright plane downstream");
+  v.quantity("bottom", c.bottom, Dim::length, {},
+             "height of a level plane below the soil; ground.surface must lie two cells below it");
+}
+
+void Schema<ExtrudeSettings>::describe(FieldVisitor& v, ExtrudeSettings& c) {
+  static constexpr std::array<std::string_view, 3> sides{"smooth", "rough", "open"};
+  v.quantity("width", c.width, Dim::length, {.above = 0.0}, "width of the valley");
+  v.choice("sides", c.sides, sides,
+           "upright walls on both sides: smooth as in plane strain, or rough with the friction of "
+           "the ground; open: none, the terrain holds the soil");
+}
+
+void Schema<SleepSettings>::describe(FieldVisitor& v, SleepSettings& c) {
+  v.quantity("speed", c.speed, Dim::velocity, {.above = 0.0},
+             "soil that moves less than speed x after in the time `after` is quiet");
+  v.quantity("after", c.after, Dim::time, {.above = 0.0},
+             "how long soil is quiet before it sleeps");
 }
 
 void Schema<OutletSettings>::describe(FieldVisitor& v, OutletSettings& c) {
@@ -82,12 +129,14 @@ void Schema<FlowConfig>::describe(FieldVisitor& v, FlowConfig& c) {
   v.quantity("end", c.end, Dim::time, {.above = 0.0},
              "latest end; the run stops earlier when all is at rest");
   v.group("ground", c.ground, Schema<GroundSettings>::doc);
+  v.group("absorbing", c.absorbing, Schema<AbsorbingSettings>::doc);
   v.group("outlet", c.outlet, Schema<OutletSettings>::doc);
   v.list("tractions", c.tractions, Schema<TractionSettings>::doc);
   v.quantity("left_roller", c.left_roller, Dim::length, {},
              "x of a vertical frictionless wall upstream");
   v.quantity("right_roller", c.right_roller, Dim::length, {},
              "x of a vertical frictionless wall downstream");
+  v.group("extrude", c.extrude, Schema<ExtrudeSettings>::doc);
   v.group("softening", c.softening, Schema<SofteningSettings>::doc);
   v.choice("basis", c.basis, bases,
            "shape functions: quadratic and cubic B-splines, gimp for points of half a cell, or "
@@ -118,6 +167,7 @@ void Schema<FlowConfig>::describe(FieldVisitor& v, FlowConfig& c) {
              "largest norm of the velocity gradient times the step");
   v.quantity("damping", c.damping, Dim::none, {.min = 0.0, .below = 1.0},
              "local non-viscous damping factor (Cundall)");
+  v.group("sleep", c.sleep, Schema<SleepSettings>::doc);
   v.group("rest", c.rest, Schema<RestSettings>::doc);
   v.quantity("frame_interval", c.frame_interval, Dim::time, {.above = 0.0},
              "time between stored states");

@@ -11,6 +11,7 @@
 namespace flowslide {
 
 enum class VolumeAverage { automatic, off };
+enum class Sides { smooth, rough, open };
 
 struct SofteningSettings {
   bool regularise = true;
@@ -23,9 +24,32 @@ struct RestSettings {
   double window = 5.0;          ///< [s]
 };
 
+/// A height field in place of the ground's polyline, in three dimensions.
+struct TerrainSettings {
+  InputFile file;
+  std::array<double, 2> origin{};  ///< of the scene, in map coordinates [m]
+  double heading = 0.0;            ///< of x on the map, counter-clockwise [rad]
+  double level = 0.0;              ///< map height of z = 0 [m]
+};
+
 struct GroundSettings {
   std::vector<std::vector<double>> surface = {{0.0, 0.0}};  ///< rows x, y [m]
-  double friction = 0.70;                                   ///< [-]
+  std::optional<TerrainSettings> terrain;
+  double friction = 0.70;  ///< [-]
+};
+
+struct AbsorbingSettings {
+  std::optional<double> left, right, bottom;  ///< [m]
+};
+
+struct ExtrudeSettings {
+  double width = kUnset;  ///< [m]
+  Sides sides = Sides::smooth;
+};
+
+struct SleepSettings {
+  double speed = 0.01;  ///< [m/s]
+  double after = 1.0;   ///< [s]
 };
 
 struct OutletSettings {
@@ -45,11 +69,13 @@ struct FlowConfig {
   double toe = kUnset;                  ///< x [m]
   double end = kUnset;                  ///< [s]
   GroundSettings ground;
+  AbsorbingSettings absorbing;
   OutletSettings outlet;
   std::vector<TractionSettings> tractions;
   std::optional<double> left_roller;   ///< x [m]
   std::optional<double> right_roller;  ///< x [m]
-  /// Rollers at two y [m] in three dimensions; not for workflows, which run plane strain.
+  std::optional<ExtrudeSettings> extrude;
+  /// Walls at two y [m] in three dimensions, as `extrude` sets them.
   std::optional<std::array<double, 2>> side_rollers;
   SofteningSettings softening;
   mpm::BasisKind basis = mpm::BasisKind::quadratic;
@@ -64,6 +90,7 @@ struct FlowConfig {
   double velocity_limit = 0.2;
   double strain_limit = 0.05;
   double damping = 0.0;
+  std::optional<SleepSettings> sleep;
   RestSettings rest;
   double frame_interval = 5.0;    ///< [s]
   double sample_interval = 0.25;  ///< [s]
@@ -84,9 +111,35 @@ struct Schema<RestSettings> {
   static void describe(FieldVisitor& v, RestSettings& c);
 };
 template <>
+struct Schema<TerrainSettings> {
+  static constexpr std::string_view doc =
+      "Heights of the ground in three dimensions, in place of its surface line.";
+  static void describe(FieldVisitor& v, TerrainSettings& c);
+};
+template <>
 struct Schema<GroundSettings> {
   static constexpr std::string_view doc = "The rigid ground under the flow.";
   static void describe(FieldVisitor& v, GroundSettings& c);
+};
+template <>
+struct Schema<AbsorbingSettings> {
+  static constexpr std::string_view doc =
+      "Planes beyond which the soil goes on: waves leave there, and what held the soil at the "
+      "start stays.";
+  static void describe(FieldVisitor& v, AbsorbingSettings& c);
+};
+template <>
+struct Schema<ExtrudeSettings> {
+  static constexpr std::string_view doc =
+      "Runs the section as a straight valley in three dimensions: x as in the section, y across, z "
+      "up. Masses and energies of the time series are those of the whole width.";
+  static void describe(FieldVisitor& v, ExtrudeSettings& c);
+};
+template <>
+struct Schema<SleepSettings> {
+  static constexpr std::string_view doc =
+      "Leaves soil out of the steps while neither it nor what is near it moves; off unless given.";
+  static void describe(FieldVisitor& v, SleepSettings& c);
 };
 template <>
 struct Schema<OutletSettings> {
@@ -105,7 +158,8 @@ struct Schema<TractionSettings> {
 };
 template <>
 struct Schema<FlowConfig> {
-  static constexpr std::string_view doc = "Explicit material-point runout in plane strain.";
+  static constexpr std::string_view doc =
+      "Explicit material-point runout in plane strain, or as a valley in three dimensions.";
   static void describe(FieldVisitor& v, FlowConfig& c);
 };
 

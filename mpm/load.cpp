@@ -53,6 +53,24 @@ StateSource state_source(const MaterialSpec& spec, const ParticleSet& particles)
       from_parameters(spec.law, spec.parameters));
 }
 
+/// Height of the ground under a point [m].
+template <int Dim>
+double ground_level(const Simulation<Dim>& s, std::int64_t id, std::size_t q) {
+  const auto& x = s.points.x;
+  if constexpr (Dim == 3) {
+    if (s.ground.field) {
+      const double level = s.ground.field->at(x[0][q], x[1][q]);
+      validate(!std::isnan(level),
+               "particle {} at ({:.2f}, {:.2f}) stands where the terrain has no height, see {} (it "
+               "would fall for ever) fill the gap in the file, or check terrain.origin and "
+               "terrain.heading",
+               id, x[0][q], x[1][q], s.ground.field->name_place(x[0][q], x[1][q]));
+      return level;
+    }
+  }
+  return s.ground.level(x[0][q]);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -78,21 +96,39 @@ Simulation<Dim> make_simulation(const ParticleSet& particles, const FlowConfig& 
   s.settings.strain_limit = config.strain_limit;
   s.settings.relaxation = config.relaxation;
   s.settings.cundall = config.damping;
+  if (config.sleep) {
+    s.sleep.speed = config.sleep->speed;
+    s.sleep.after = config.sleep->after;
+  }
   s.settings.average_volume = config.volume_average == VolumeAverage::automatic;
   for (const auto& point : config.ground.surface) {
     s.ground.x.push_back(point[0]);
     s.ground.height.push_back(point[1]);
   }
   s.ground.friction = config.ground.friction;
+  if (config.ground.terrain) {
+    validate(Dim == 3,
+             "ground.terrain is a surface in three dimensions (this run has {}) give "
+             "ground.surface",
+             Dim);
+    const TerrainSettings& t = *config.ground.terrain;
+    s.ground.field = read_height_field(t.file.path, {t.origin, t.heading, t.level});
+  }
   s.outlet.low.front() = config.outlet.left.value_or(s.outlet.low.front());
   s.outlet.high.front() = config.outlet.right.value_or(s.outlet.high.front());
   s.outlet.low.back() = config.outlet.bottom.value_or(s.outlet.low.back());
   s.outlet.high.back() = config.outlet.top.value_or(s.outlet.high.back());
+  Absorbing<Dim>& absorbing = s.contact.absorbing;
+  absorbing.low.front() = config.absorbing.left.value_or(absorbing.low.front());
+  absorbing.high.front() = config.absorbing.right.value_or(absorbing.high.front());
+  absorbing.low.back() = config.absorbing.bottom.value_or(absorbing.low.back());
   if (config.left_roller) s.rollers.left = *config.left_roller;
   if (config.right_roller) s.rollers.right = *config.right_roller;
   if (config.side_rollers) {
     s.rollers.near = (*config.side_rollers)[0];
     s.rollers.far = (*config.side_rollers)[1];
+    if (config.extrude && config.extrude->sides == Sides::rough)
+      s.rollers.side_friction = config.ground.friction;
   }
 
   std::vector<StateSource> sources;
@@ -128,12 +164,17 @@ Simulation<Dim> make_simulation(const ParticleSet& particles, const FlowConfig& 
                "material or per particle",
                particles.id[i], particles.materials[p.material[i]].name, source.names[k]);
     }
-    const double depth = s.ground.level(p.x[0][i]) - p.x[Dim - 1][i];
+    const double depth = ground_level(s, particles.id[i], i) - p.x[Dim - 1][i];
     validate(!(depth > 0.5 * config.cell),
              "particle {} at ({:.2f}, {:.2f}) lies {:.2f} m inside the ground (it would be thrown "
              "out) lower "
              "ground.surface or raise the transfer box",
              particles.id[i], p.x[0][i], p.x[Dim - 1][i], depth);
+    for (int d = 0; d < Dim; ++d)
+      validate(p.x[d][i] >= absorbing.low[d] && p.x[d][i] <= absorbing.high[d],
+               "particle {} at ({:.2f}, {:.2f}) lies beyond an absorbing plane (nothing would hold "
+               "it there) move the plane or the transfer box",
+               particles.id[i], p.x[0][i], p.x[Dim - 1][i]);
     for (int d = 0; d < Dim; ++d)
       validate(p.x[d][i] >= s.outlet.low[d] && p.x[d][i] <= s.outlet.high[d],
                "particle {} at ({:.2f}, {:.2f}) lies beyond the outlet (it would leave before the "
@@ -167,38 +208,5 @@ Simulation<Dim> make_simulation(const ParticleSet& particles, const FlowConfig& 
 
 template Simulation<2> make_simulation<2>(const ParticleSet&, const FlowConfig&);
 template Simulation<3> make_simulation<3>(const ParticleSet&, const FlowConfig&);
-
-void store_frame(const Simulation<2>& s, MpmFrame& frame) {
-  const std::size_t n = s.points.size() + s.gone.size();
-  frame.time = s.time;
-  frame.position.resize(n);
-  frame.velocity.resize(n);
-  frame.stress.resize(n);
-  frame.volume.resize(n);
-  frame.plastic_strain.resize(n);
-  frame.strength.resize(n);
-  const auto store = [&](const Points<2>& p, std::size_t q, double volume) {
-    const auto i = static_cast<std::size_t>(p.index[q]);
-    frame.position[i] = {p.x[0][q], p.x[1][q], 0.0};
-    frame.velocity[i] = {p.v[0][q], p.v[1][q], 0.0};
-    frame.stress[i] = {p.sigma[0][q], p.sigma[1][q], p.sigma[2][q], p.sigma[3][q], 0.0, 0.0};
-    frame.volume[i] = volume;
-    std::visit(
-        [&]<class M>(const Typed<M>& law) {
-          constexpr std::size_t states = M::state_names.size();
-          std::array<double, states> values{};
-          for (std::size_t k = 0; k < states; ++k) values[k] = p.state[k][q];
-          typename M::State state{};
-          if constexpr (states > 0) state = std::bit_cast<typename M::State>(values);
-          frame.plastic_strain[i] = 0.0;
-          if constexpr (requires { state.plastic_strain; })
-            frame.plastic_strain[i] = state.plastic_strain;
-          frame.strength[i] = M::present_strength(law.constants, state);
-        },
-        s.materials[p.material[q]].law);
-  };
-  for (std::size_t q = 0; q < s.points.size(); ++q) store(s.points, q, s.points.volume[q]);
-  for (std::size_t q = 0; q < s.gone.size(); ++q) store(s.gone, q, 0.0);
-}
 
 }  // namespace flowslide::mpm

@@ -6,13 +6,14 @@
 /// Between ParticleSet and the solver's arrays.
 namespace flowslide::mpm {
 
-/// A simulation at time zero. In three dimensions z is up, the ground does not vary with y, and
-/// grid_origin gives x and z. Throws InputError (unknown law, missing state, points inside the
-/// ground) naming material and particle.
+/// A simulation at time zero. In three dimensions z is up, the ground's polyline does not vary with
+/// y, and grid_origin gives x and z. Throws InputError (unknown law, missing state, points inside
+/// the ground) naming material and particle.
 template <int Dim = 2>
 Simulation<Dim> make_simulation(const ParticleSet& particles, const FlowConfig& config);
 
 /// Fills a frame in the order of the ParticleSet; arrays must have its size.
-void store_frame(const Simulation<2>& s, MpmFrame& frame);
+template <int Dim>
+void store_frame(const Simulation<Dim>& s, MpmFrame& frame);
 
 }  // namespace flowslide::mpm

@@ -14,7 +14,8 @@ struct GridWork {
   double gravity = 0.0;                        ///< work of gravity [J]
   double load = 0.0;                           ///< work of tractions [J]
   double damping = 0.0;                        ///< work of artificial damping, <= 0 [J]
-  double boundary = 0.0;                       ///< work of boundary impulses, <= 0 [J]
+  double boundary = 0.0;                       ///< work of boundary impulses [J]
+  double absorbed = 0.0;                       ///< of that, what left through absorbing planes [J]
   std::array<double, Dim> gravity_impulse{};   ///< [N s]
   std::array<double, Dim> load_impulse{};      ///< of tractions [N s]
   std::array<double, Dim> boundary_impulse{};  ///< impulse of boundaries and damping [N s]
@@ -25,6 +26,7 @@ struct GridWork {
     load += o.load;
     damping += o.damping;
     boundary += o.boundary;
+    absorbed += o.absorbed;
     for (int d = 0; d < Dim; ++d) {
       gravity_impulse[d] += o.gravity_impulse[d];
       load_impulse[d] += o.load_impulse[d];

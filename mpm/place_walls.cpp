@@ -1,109 +1,8 @@
-#include "mpm/basis.hpp"
-#include "mpm/contact.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include "mpm/place_terrain.hpp"
 
 /// Where walls act: wall points on the grid lines that the ground and the rollers cross.
 namespace flowslide::mpm {
 namespace {
-
-// Wall points this far below the soil's side of the ground catch what has slipped through [cells].
-constexpr double kNetFrom = 1.5, kNetTo = 4.5;
-
-template <int Dim>
-std::int32_t find_block(const Grid<Dim>& grid, const Coordinate<Dim>& c) {
-  const auto later = [](const Coordinate<Dim>& a, const Coordinate<Dim>& b) {
-    return std::lexicographical_compare(a.rbegin(), a.rend(), b.rbegin(), b.rend());
-  };
-  const auto at = std::lower_bound(grid.blocks.begin(), grid.blocks.end(), c, later);
-  return at != grid.blocks.end() && *at == c ? static_cast<std::int32_t>(at - grid.blocks.begin())
-                                             : -1;
-}
-
-/// A node's shape function at the distance t [cells].
-template <class Basis>
-double shape(double t) {
-  double w[Basis::nodes], g[Basis::nodes];
-  const double lowest = base_node<Basis>(t);
-  Basis::evaluate(t - lowest, w, g);
-  return lowest <= 0.0 && lowest > -Basis::nodes ? w[static_cast<int>(-lowest)] : 0.0;
-}
-
-template <int Dim>
-struct Placing {
-  const Grid<Dim>& grid;
-  Contact<Dim>& contact;
-  Coordinate<Dim> low, high;            ///< outermost nodes of the active blocks
-  std::vector<std::int32_t> grid_node;  ///< per entry
-
-  /// Adds an entry for a node if its block is active.
-  void add_node(const Coordinate<Dim>& node, double weight) {
-    constexpr int B = kBlockWidth<Dim>;
-    Coordinate<Dim> block;
-    int local = 0;
-    for (int d = Dim - 1; d >= 0; --d) {
-      block[d] = node[d] >= 0 ? node[d] / B : -((B - 1 - node[d]) / B);
-      local = local * B + (node[d] - block[d] * B);
-    }
-    const std::int32_t at = find_block<Dim>(grid, block);
-    if (at < 0) return;
-    grid_node.push_back(at * kBlockNodes<Dim> + local);
-    contact.weight.push_back(weight);
-  }
-
-  /// Ends the wall point begun at entry `first`, nodes at up to half a cell above the wall first.
-  void finish(WallPoint<Dim> wall, std::size_t first, std::size_t touching) {
-    wall.first = static_cast<std::int32_t>(first);
-    wall.touching = static_cast<std::int32_t>(touching);
-    wall.last = static_cast<std::int32_t>(grid_node.size());
-    if (wall.last > wall.first) contact.walls.push_back(wall);
-  }
-
-  /// Wall points where a straight wall crosses the grid lines in direction `across` that stand at
-  /// node `line` of the axis `along`: `height` is where, `slope` how the wall rises from line to
-  /// line [cells]. In 3D the wall does not vary along the third axis: one for every node there.
-  template <class Basis>
-  void add(int along, int across, std::int32_t line, double height, double slope,
-           const WallPoint<Dim>& wall) {
-    const int third = Dim == 3 ? 3 - along - across : 0;
-    // Mean of the shape functions of the line's nodes over the wall, weighted with the line's own:
-    // the share of each in a uniform pressure.
-    const double reach = 0.5 * Basis::nodes, tilt = std::abs(slope) * reach;
-    const auto first_node = static_cast<std::int32_t>(base_node<Basis>(height - tilt));
-    const auto last_node =
-        static_cast<std::int32_t>(base_node<Basis>(height + tilt)) + Basis::nodes;
-    Coordinate<Dim> node;
-    node[along] = line;
-    for (int j = Dim == 3 ? low[third] : 0; j <= (Dim == 3 ? high[third] : 0); ++j) {
-      if constexpr (Dim == 3) node[third] = j;
-      const std::size_t first = grid_node.size();
-      std::size_t touching = first;
-      for (const bool near : {true, false}) {
-        for (std::int32_t k = first_node; k < last_node; ++k) {
-          const double above = (k - height) * wall.normal[across];
-          if ((above < 0.5 + 1e-9) != near) continue;
-          double weight = 0.0;
-          for (double s = 0.25 - reach; s < reach; s += 0.5)
-            weight += 0.5 * shape<Basis>(s) * shape<Basis>(height + slope * s - k);
-          node[across] = k;
-          if (weight > 0.0) add_node(node, weight);
-        }
-        if (near) touching = grid_node.size();
-      }
-      finish(wall, first, touching);
-    }
-  }
-
-  /// The grid lines between two coordinates [m], both included.
-  [[nodiscard]] std::array<std::int32_t, 2> lines(int axis, double from, double to) const {
-    const double first = std::ceil((from - grid.origin[axis]) / grid.h - 1e-9);
-    const double last = std::floor((to - grid.origin[axis]) / grid.h + 1e-9);
-    return {static_cast<std::int32_t>(std::max<double>(first, low[axis])),
-            static_cast<std::int32_t>(std::min<double>(last, high[axis]))};
-  }
-};
 
 /// A straight piece of the ground; ends may be infinite.
 struct Piece {
@@ -128,45 +27,11 @@ std::vector<Piece> pieces(const Ground& g) {
   return all;
 }
 
-}  // namespace
-
-template <int Dim, class Basis>
-void place_walls(const Grid<Dim>& grid, const Ground& ground, const Rollers& rollers,
-                 Contact<Dim>& c) {
+/// Wall points of the ground, a polyline that does not vary along y.
+template <class Basis, int Dim>
+void place_polyline(Placing<Dim>& place, const Ground& ground, const Rollers& rollers) {
   constexpr int B = kBlockWidth<Dim>, up = Dim - 1;
-  c.walls.clear();
-  c.weight.clear();
-  c.nodes.clear();
-  c.node.clear();
-  Placing<Dim> place{grid, c, {}, {}, {}};
-  place.low.fill(std::numeric_limits<std::int32_t>::max());
-  place.high.fill(std::numeric_limits<std::int32_t>::min());
-  for (const auto& block : grid.blocks) {
-    for (int d = 0; d < Dim; ++d) {
-      place.low[d] = std::min(place.low[d], block[d] * B);
-      place.high[d] = std::max(place.high[d], block[d] * B + B - 1);
-    }
-  }
-  const auto in_cells = [&](int axis, double x) { return (x - grid.origin[axis]) / grid.h; };
-
-  for (const double x : {rollers.left, rollers.right}) {
-    if (!std::isfinite(x)) continue;
-    WallPoint<Dim> wall;
-    wall.normal[0] = x == rollers.left ? 1.0 : -1.0;
-    wall.holds = true;
-    for (std::int32_t k = place.low[up]; k <= place.high[up]; ++k)
-      place.template add<Basis>(up, 0, k, in_cells(0, x), 0.0, wall);
-  }
-  if constexpr (Dim == 3) {
-    for (const double y : {rollers.near, rollers.far}) {
-      if (!std::isfinite(y)) continue;
-      WallPoint<Dim> wall;
-      wall.normal[1] = y == rollers.near ? 1.0 : -1.0;
-      wall.holds = true;
-      for (std::int32_t k = place.low[up]; k <= place.high[up]; ++k)
-        place.template add<Basis>(up, 1, k, in_cells(1, y), 0.0, wall);
-    }
-  }
+  const Grid<Dim>& grid = place.grid;
   // Grid lines behind a roller still carry nodes whose functions reach the soil.
   const double reach = 0.5 * Basis::nodes * grid.h * (1.0 - 1e-9);
   const double first_x = rollers.left - reach, last_x = rollers.right + reach;
@@ -187,7 +52,7 @@ void place_walls(const Grid<Dim>& grid, const Ground& ground, const Rollers& rol
         const bool again = k == last_line && normal == last_normal;  // where pieces meet
         if (!again)
           place.template add<Basis>(0, up, k,
-                                    in_cells(up, piece.height(grid.origin[0] + grid.h * k)),
+                                    place.in_cells(up, piece.height(grid.origin[0] + grid.h * k)),
                                     piece.slope(), wall);
         last_line = k;
         last_normal = normal;
@@ -199,7 +64,7 @@ void place_walls(const Grid<Dim>& grid, const Ground& ground, const Rollers& rol
       for (std::int32_t k = first; k <= last; ++k) {
         const double x = piece.x0 + (grid.origin[up] + grid.h * k - piece.y0) * slope;
         if (x >= first_x && x <= last_x)
-          place.template add<Basis>(up, 0, k, in_cells(0, x), slope, wall);
+          place.template add<Basis>(up, 0, k, place.in_cells(0, x), slope, wall);
       }
     }
   }
@@ -223,6 +88,82 @@ void place_walls(const Grid<Dim>& grid, const Ground& ground, const Rollers& rol
       place.finish(wall, first, place.grid_node.size());
     }
   }
+}
+
+template <class Basis, int Dim>
+void place_dashpot(Placing<Dim>& place, const Absorbing<Dim>& absorbing, std::int32_t index) {
+  const Dashpot<Dim>& dashpot = absorbing.dashpots[index];
+  if (!(dashpot.area > 0.0)) return;
+  const int axis = dashpot.plane / 2;
+  const double at = place.in_cells(axis, absorbing.plane(dashpot.plane));
+  WallPoint<Dim> wall;
+  wall.dashpot = index;
+  wall.normal[axis] = dashpot.plane % 2 == 0 ? 1.0 : -1.0;
+  const auto lowest = static_cast<std::int32_t>(base_node<Basis>(at));
+  const std::size_t first = place.grid_node.size();
+  std::size_t touching = first;
+  Coordinate<Dim> node = dashpot.line;
+  for (const bool near : {true, false}) {
+    for (std::int32_t k = lowest; k < lowest + Basis::nodes; ++k) {
+      const double weight = shape<Basis>(at - k);
+      if (((k - at) * wall.normal[axis] < 0.5 + 1e-9) != near || !(weight > 0.0)) continue;
+      node[axis] = k;
+      place.add_node(node, weight);
+    }
+    if (near) touching = place.grid_node.size();
+  }
+  place.finish(wall, first, touching);
+}
+
+}  // namespace
+
+template <int Dim, class Basis>
+void place_walls(const Grid<Dim>& grid, const Ground& ground, const Rollers& rollers,
+                 Contact<Dim>& c) {
+  constexpr int B = kBlockWidth<Dim>, up = Dim - 1;
+  c.walls.clear();
+  c.weight.clear();
+  c.nodes.clear();
+  c.node.clear();
+  Placing<Dim> place{grid, c, {}, {}, {}};
+  place.low.fill(std::numeric_limits<std::int32_t>::max());
+  place.high.fill(std::numeric_limits<std::int32_t>::min());
+  for (const auto& block : grid.blocks) {
+    for (int d = 0; d < Dim; ++d) {
+      place.low[d] = std::min(place.low[d], block[d] * B);
+      place.high[d] = std::max(place.high[d], block[d] * B + B - 1);
+    }
+  }
+  for (const double x : {rollers.left, rollers.right}) {
+    if (!std::isfinite(x)) continue;
+    WallPoint<Dim> wall;
+    wall.normal[0] = x == rollers.left ? 1.0 : -1.0;
+    wall.holds = true;
+    for (std::int32_t k = place.low[up]; k <= place.high[up]; ++k)
+      place.template add<Basis>(up, 0, k, place.in_cells(0, x), 0.0, wall);
+  }
+  if constexpr (Dim == 3) {
+    for (const double y : {rollers.near, rollers.far}) {
+      if (!std::isfinite(y)) continue;
+      WallPoint<Dim> wall;
+      wall.normal[1] = y == rollers.near ? 1.0 : -1.0;
+      wall.friction = rollers.side_friction;
+      wall.holds = !(rollers.side_friction > 0.0);
+      for (std::int32_t k = place.low[up]; k <= place.high[up]; ++k)
+        place.template add<Basis>(up, 1, k, place.in_cells(1, y), 0.0, wall);
+    }
+  }
+  if constexpr (Dim == 3) {
+    if (ground.field)
+      place_terrain<Basis>(place, *ground.field, ground.friction, rollers);
+    else
+      place_polyline<Basis>(place, ground, rollers);
+  } else {
+    place_polyline<Basis>(place, ground, rollers);
+  }
+
+  for (std::size_t i = 0; i < c.absorbing.dashpots.size(); ++i)
+    place_dashpot<Basis>(place, c.absorbing, static_cast<std::int32_t>(i));
 
   c.nodes = place.grid_node;
   std::sort(c.nodes.begin(), c.nodes.end());
@@ -234,6 +175,7 @@ void place_walls(const Grid<Dim>& grid, const Ground& ground, const Rollers& rol
   c.inverse_mass.resize(c.nodes.size());
   c.mobility.resize(c.walls.size());
   c.fresh.resize(c.walls.size());
+  c.before.resize(c.absorbing.dashpots.size());
   c.uses.resize(c.nodes.size());
   c.active.reserve(c.walls.size());
   c.coupled.reserve(c.walls.size());

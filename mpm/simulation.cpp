@@ -70,7 +70,12 @@ void group_tiles(const Simulation<Dim>& s, StepScratch<Dim>& scratch) {
   std::vector<bool> held(s.grid.nodes.size(), false);
   for (const std::int32_t node : s.contact.nodes) held[node] = true;
   for (Group& group : scratch.groups) group.tiles.clear();
+  scratch.asleep.tiles.clear();
   for (std::size_t t = 0; t < s.tiling.tiles.size(); ++t) {
+    if (s.sleep.sleeps(s.points, s.tiling.tiles[t])) {
+      scratch.asleep.tiles.push_back(static_cast<std::int32_t>(t));
+      continue;
+    }
     bool touches = false;
     for_each_row<Dim, kLocalWidth<Dim, Basis>>(
         s.tiling.tiles[t], [&](int, std::int32_t block, int node, int count) {
@@ -83,6 +88,24 @@ void group_tiles(const Simulation<Dim>& s, StepScratch<Dim>& scratch) {
     deal(group, [&](std::int32_t t) {
       return double(s.tiling.tiles[t].last - s.tiling.tiles[t].first) + kTileWeight;
     });
+  deal(scratch.asleep, [](std::int32_t) { return 1.0; });
+}
+
+/// Lets tiles fall asleep and wakes others. A wave may be faster in what wakes.
+template <int Dim>
+void sleep_or_wake(Simulation<Dim>& s) {
+  std::vector<std::int32_t> restless;
+  for (const Load<Dim>& load : s.loads) restless.push_back(load.index);
+  const SleepChange<Dim> change =
+      look_for_sleep(s.time, restless, s.grid, s.tiling, s.points, s.sleep);
+  for (int d = 0; d < Dim; ++d) s.balance.grid.boundary_impulse[d] += change.impulse[d];
+  if (!change.woken) return;
+  const Points<Dim>& p = s.points;
+  for (std::size_t q = 0; q < p.size(); ++q) {
+    const double modulus =
+        wave_modulus(s.materials[p.material[q]].elastic, s.averages(p.material[q]));
+    s.last.max_wave2 = std::max(s.last.max_wave2, modulus * p.volume[q] / p.mass[q]);
+  }
 }
 
 }  // namespace
@@ -109,12 +132,16 @@ void prepare(Simulation<Dim>& s, StepScratch<Dim>& scratch, bool rebin) {
       thin_debris<Dim, Basis>(s);
       return Basis::shift;
     });
+    if constexpr (Dim == 3)
+      if (s.ground.field) check_covered(*s.ground.field, s.points.x[0], s.points.x[1], s.time);
     bin_points<Dim>(s.points, s.grid, s.tiling, shift, scratch.binning);
+    if (s.sleep.on()) sleep_or_wake(s);
     s.drift = 0.0;
   } else {
     link_tiles<Dim>(s.grid, s.tiling);
   }
   visit_basis(s.settings.basis, [&]<class Basis>(Basis) {
+    if (rebin) measure_dashpots<Dim, Basis>(s.grid, s.points, s.materials, s.contact.absorbing);
     place_walls<Dim, Basis>(s.grid, s.ground, s.rollers, s.contact);
     scratch.windows.resize(s.tiling.tiles.size() * kWindowNodes<Dim, Basis>);
   });
@@ -135,6 +162,7 @@ void prepare(Simulation<Dim>& s, StepScratch<Dim>& scratch, bool rebin) {
     t.average.mean.resize(kSpans<Dim>);
   }
   scratch.stress_work.resize(s.tiling.tiles.size());
+  scratch.sleep_work.resize(scratch.asleep.tiles.empty() ? 0 : s.tiling.tiles.size());
   scratch.grid_work.resize(s.grid.blocks.size());
   const bool fmpm = s.settings.transfer == Transfer::fmpm;
   if (fmpm || s.settings.update != Update::symplectic) scratch.second.resize(s.grid.nodes.size());
@@ -145,7 +173,8 @@ void prepare(Simulation<Dim>& s, StepScratch<Dim>& scratch, bool rebin) {
 
 template <int Dim>
 void advance(Simulation<Dim>& s, StepScratch<Dim>& scratch) {
-  if (s.drift > 0.95 * s.grid.h) prepare(s, scratch, true);
+  if (s.drift > 0.95 * s.grid.h || (s.sleep.on() && s.time >= s.sleep.next_look))
+    prepare(s, scratch, true);
   s.dt = stable_step(s);
   visit_basis(s.settings.basis, [&]<class Basis>(Basis) { step<Dim, Basis>(s, scratch); });
 
@@ -155,6 +184,7 @@ void advance(Simulation<Dim>& s, StepScratch<Dim>& scratch) {
   GridWork<Dim> grid;
   for (const GridWork<Dim>& w : scratch.grid_work) grid.add(w);
   grid.add(scratch.contact_work);
+  for (const std::int32_t t : scratch.asleep.tiles) grid.add(scratch.sleep_work[t]);
   if (s.settings.update == Update::usf) {
     // The force is that of the stress after the update, the strain that of the velocity before.
     std::swap(stress.power_start, stress.power_end);

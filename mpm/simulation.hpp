@@ -4,6 +4,7 @@
 #include "mpm/momentum.hpp"
 #include "mpm/outlet.hpp"
 #include "mpm/shares.hpp"
+#include "mpm/sleep.hpp"
 #include "mpm/stress.hpp"
 #include "mpm/traction.hpp"
 
@@ -48,6 +49,7 @@ struct Simulation {
   Outlet<Dim> outlet;
   std::vector<Load<Dim>> loads;  ///< in order of their points' index
   Contact<Dim> contact;
+  Sleep<Dim> sleep;
   StepSettings settings;
   double full_mass = 0.0;  ///< mass of a full cell [kg], the scale of the mass floor
   /// Per material, of its points at the start [kg/m3]; 0: its points never count as debris.
@@ -71,17 +73,20 @@ template <int Dim>
 struct StepScratch {
   BinningScratch binning;
   std::array<Group, 2> groups;          ///< tiles apart from walls, tiles that touch a contact node
+  Group asleep;                         ///< tiles in neither of them
   StaggeredArray<Node> windows;         ///< per tile what its points give to their nodes
   std::vector<std::int32_t> span;       ///< per point, where it was when it was scattered
   bool scattered = false;               ///< windows hold the present points; false after changes
   std::vector<TileScratch<Dim>> tile;   ///< per thread
   std::vector<StressWork> stress_work;  ///< per tile
-  std::vector<GridWork<Dim>> grid_work;  ///< per block
+  std::vector<GridWork<Dim>> grid_work;   ///< per block
+  std::vector<GridWork<Dim>> sleep_work;  ///< per tile, of those asleep
   GridWork<Dim> contact_work;
   StaggeredArray<Node> second, third;  ///< as grid.nodes, where update or transfer need them
   std::array<StaggeredArray<double>, Dim> moved;  ///< new positions of musl [m]
   explicit StepScratch(int threads) : tile(threads) {
     for (Group& group : groups) group.shares.resize(threads);
+    asleep.shares.resize(threads);
     binning.copy.resize(threads);
   }
 };

@@ -1,4 +1,5 @@
 #pragma once
+#include "mpm/hold_asleep.hpp"
 #include "mpm/p2g.hpp"
 #include "mpm/remap.hpp"
 #include "mpm/simulation.hpp"
@@ -104,6 +105,11 @@ void step(Simulation<Dim>& s, StepScratch<Dim>& scratch) {
   auto& moved = update == Update::musl ? scratch.moved : s.points.x;
   const int threads = static_cast<int>(scratch.tile.size());
   const bool loaded = !s.loads.empty();
+  // Only with symplectic updates: their windows keep what the points gave.
+  const bool sleepers = !scratch.asleep.tiles.empty();
+  const bool keeps =
+      s.settings.transfer == Transfer::flip || s.settings.transfer == Transfer::aflip;
+  const double kept = keeps ? keep : 0.0;
 
 #pragma omp parallel num_threads(threads)
   {
@@ -124,9 +130,11 @@ void step(Simulation<Dim>& s, StepScratch<Dim>& scratch) {
       });
     };
     if (update == Update::usf) strain_from_points();
-    if (!scratch.scattered)
-      take_turns(scratch.groups, thread,
-                 [&](std::int32_t i) { scatter_points<Dim, Basis>(s, i, scratch, mine); });
+    if (!scratch.scattered) {
+      const auto scatter = [&](std::int32_t i) { scatter_points<Dim, Basis>(s, i, scratch, mine); };
+      take_turns(scratch.groups, thread, scatter);
+      if (sleepers) take_turns(scratch.asleep, thread, scatter);
+    }
     if (loaded) {
 #pragma omp single
       add_loads<Dim, Basis>(s, scratch);
@@ -152,6 +160,12 @@ void step(Simulation<Dim>& s, StepScratch<Dim>& scratch) {
       strain(i);
       scatter_points<Dim, Basis>(s, i, scratch, mine);
     });
+    if (sleepers)
+      take_turns(scratch.asleep, thread, [&](std::int32_t i) {
+        scratch.stress_work[i] =
+            hold_asleep<Dim, Basis>(s.tiling.tiles[i], window_of<Dim, Basis>(scratch, i), s.grid,
+                                    momentum, kept, scratch.sleep_work[i]);
+      });
     if (update == Update::musl) strain_from_points();
   }
   scratch.scattered = update == Update::symplectic;

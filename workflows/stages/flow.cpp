@@ -27,17 +27,20 @@ struct FlowStage {
     const FlowPaths paths{out.history.path, context.folder / "checkpoint"};
     const FlowFacts f = run_flow(read_particles(in.particles.path), config, paths, context.threads,
                                  context.progress);
+    const double width = config.extrude ? config.extrude->width : 1.0;
     const double rate = f.step_seconds > 0.0 ? f.updates_this_call / f.step_seconds : 0.0;
-    const nlohmann::ordered_json facts = {{"runout_m", f.last.runout},
-                                          {"mass_error", f.last.mass_error},
-                                          {"energy_error", f.last.energy_error},
-                                          {"flow_end_s", f.end_time},
-                                          {"flow_at_rest", f.at_rest},
-                                          {"flow_steps", f.steps},
-                                          {"points_left", f.last.points_left},
-                                          {"mass_left_kg_per_m", f.last.mass_left},
-                                          {"flow_point_updates", f.point_updates},
-                                          {"flow_point_updates_per_s", rate}};
+    nlohmann::ordered_json facts = {{"runout_m", f.last.runout},
+                                    {"mass_error", f.last.mass_error},
+                                    {"energy_error", f.last.energy_error},
+                                    {"flow_end_s", f.end_time},
+                                    {"flow_at_rest", f.at_rest},
+                                    {"flow_steps", f.steps},
+                                    {"points_left", f.last.points_left},
+                                    {"mass_left_kg_per_m", f.last.mass_left / width},
+                                    {"flow_point_updates", f.point_updates},
+                                    {"flow_point_updates_per_s", rate}};
+    if (config.absorbing.left || config.absorbing.right || config.absorbing.bottom)
+      facts["absorbed_energy_j_per_m"] = f.absorbed / width;
     return {.facts = facts.dump(), .publish = {}};
   }
 };
