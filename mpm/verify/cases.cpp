@@ -18,6 +18,8 @@ std::vector<VerificationCase> mpm_cases() {
        verify_cantilever},
       {"mpm/v8_incline", "block on a frictional incline at four angles to the grid", false,
        verify_incline},
+      {"mpm/v8_terrain", "the same block on a height field that rises in any direction", false,
+       verify_terrain},
       {"mpm/v10_infinite_slope", "layer that slides on an incline, against statics", false,
        verify_infinite_slope},
       {"mpm/v11_sheet_flow", "steady flow of fluids down an incline", false, verify_sheet_flow},

@@ -8,6 +8,7 @@ std::vector<Check> verify_compaction(std::string_view name);
 std::vector<Check> verify_mirror(std::string_view name);
 std::vector<Check> verify_bar(std::string_view name);
 std::vector<Check> verify_incline(std::string_view name);
+std::vector<Check> verify_terrain(std::string_view name);
 std::vector<Check> verify_impact(std::string_view name);
 std::vector<Check> verify_rotation(std::string_view name);
 std::vector<Check> verify_rest(std::string_view name);
