@@ -12,7 +12,7 @@ enum class Ends {
 };
 
 template <int Dim>
-void solve(const std::vector<Node>& nodes, Contact<Dim>& c, double full_mass, Hold hold,
+void solve(const StaggeredArray<Node>& nodes, Contact<Dim>& c, double full_mass, Hold hold,
            std::vector<typename Contact<Dim>::Vector>& impulse, Ends ends = Ends::idle,
            double dt = 0.0) noexcept;
 
