@@ -39,7 +39,7 @@ void transfer_fields(Archive& a, S& s, Run& run) {
 }  // namespace
 
 std::string fingerprint(const SectionMesh& section, const GroundMotion& motion,
-                        const FemConfig& config) {
+                        const FemConfig& config, const std::string& stop_rule) {
   Sha256 digest;
   const auto text = [&](const std::string& x) { digest.add(x.c_str(), x.size() + 1); };
   const auto array = [&](const auto& x) {
@@ -48,6 +48,7 @@ std::string fingerprint(const SectionMesh& section, const GroundMotion& motion,
     digest.add(x.data(), x.size() * sizeof(x[0]));
   };
   text(canonical_text(config));
+  text(stop_rule);
   array(section.mesh.nodes);
   array(section.mesh.elements);
   array(section.mesh.element_material);

@@ -22,7 +22,7 @@ struct RunState {
 
 /// SHA-256 of all that a run starts from.
 std::string fingerprint(const SectionMesh& section, const GroundMotion& motion,
-                        const FemConfig& config);
+                        const FemConfig& config, const std::string& stop_rule);
 
 /// Atomically replaces `path`. Throws FileError.
 void write_checkpoint(const std::filesystem::path& path, const std::string& fingerprint,

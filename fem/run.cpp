@@ -146,7 +146,8 @@ class StepControl {
 }  // namespace
 
 FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const FemConfig& config,
-                 const FemPaths& paths, int threads, const Progress& progress) {
+                 const FemPaths& paths, int threads, const Progress& progress,
+                 const StopRule& rule) {
   check(motion);
   omp_set_num_threads(std::max(1, threads));
   Solver s = make_solver(build_model(section, config), rayleigh(config.damping));
@@ -172,13 +173,18 @@ FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const F
   start_motion(s);
   s.dt = 1e-12;
   RunState run{.since = kModuliInterval, .smallest_step = end};
-  const std::string origin = fingerprint(section, motion, config);
+  const std::string origin = fingerprint(section, motion, config, rule.settings);
   if (std::filesystem::exists(paths.checkpoint)) read_checkpoint(paths.checkpoint, origin, s, run);
   ResumableHistoryWriter history(
       paths.history, section.mesh,
       {"flowslide fem.run", "mean of xx and yy for PM4Sand, elastic plane strain for other laws",
        notes},
       frame, static_cast<std::size_t>(run.output - 1));
+  if (rule.ends) {
+    rule.ends(frame);
+    for (std::int64_t i = 0; i + 1 < run.output; ++i)
+      rule.ends(history.frame(static_cast<std::size_t>(i)));
+  }
 
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
@@ -194,7 +200,7 @@ FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const F
     last_checkpoint = Clock::now();
   };
   const std::vector<std::int32_t> base = nodes_of(find_set(section, "base"));
-  while (s.state.time < end * (1.0 - 1e-9) && !facts.stopped) {
+  while (s.state.time < end * (1.0 - 1e-9) && !facts.stopped && !facts.stopped_by_rule) {
     const double target = std::min(end, static_cast<double>(run.output) * config.output_interval);
     while (target - s.state.time > 1e-9 * config.output_interval) {
       if (run.since++ >= kModuliInterval) {
@@ -219,6 +225,7 @@ FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const F
     ++run.output;
     run.since = kModuliInterval;
     run.largest_displacement = largest_displacement(frame, base);
+    facts.stopped_by_rule = rule.ends && rule.ends(frame);
     facts.stopped =
         config.stop_displacement && run.largest_displacement >= *config.stop_displacement;
     progress.report(target / end, fmt::format("{:.2f} s, step {:.3g} s", target, s.dt));

@@ -2,10 +2,12 @@
 #include "core/progress.hpp"
 #include "fem/config.hpp"
 #include "model/ground_motion.hpp"
+#include "model/history.hpp"
 #include "model/section_mesh.hpp"
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,7 @@ struct FemFacts {
   double end_time = 0.0;              ///< [s]
   double largest_displacement = 0.0;  ///< of a node of the section against the base, at the end [m]
   bool stopped = false;               ///< by stop_displacement
+  bool stopped_by_rule = false;       ///< by the rule given to the run
   std::int64_t steps = 0;
   double smallest_step = 0.0, largest_step = 0.0;  ///< [s]
   double out_of_balance = 0.0;                     ///< before shaking, over the largest weight
@@ -34,12 +37,23 @@ struct FemPaths {
   std::filesystem::path checkpoint;  ///< written now and then; read first if it exists
 };
 
+/// A reason to end a run that is none of this module's business.
+struct StopRule {
+  /// What the rule was made from; a checkpoint of a run with another is refused.
+  std::string settings;
+  /// Asked with the state at rest, whose answer does not count, and with every recorded state in
+  /// turn; true ends the run there. A continued run shows it the states of before again. Empty: no
+  /// rule.
+  std::function<bool(const FemFrame&)> ends;
+};
+
 /// Runs gravity and shaking and writes the history, without the free-field columns. Displacements
 /// count from the end of gravity and hold the motion of the base. With an existing checkpoint of
 /// the same run, continues from it: history and facts are then bit for bit those of an
 /// uninterrupted run, wall time apart. Throws InputError, NumericsError naming element and time,
 /// FileError, Interrupted.
 FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const FemConfig& config,
-                 const FemPaths& paths, int threads, const Progress& progress);
+                 const FemPaths& paths, int threads, const Progress& progress,
+                 const StopRule& rule = {});
 
 }  // namespace flowslide

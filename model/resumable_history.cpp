@@ -100,26 +100,29 @@ void ResumableHistoryWriter::append(const FemFrame& frame) {
   ++impl_->num_frames;
 }
 
+FemFrame ResumableHistoryWriter::frame(std::size_t index) {
+  FLOWSLIDE_EXPECT(index < impl_->num_frames);
+  FemFrame frame;
+  std::size_t offset = index * record_bytes(impl_->mesh);
+  const auto read = [&](void* to, std::size_t bytes) {
+    impl_->frames.read(offset, to, bytes);
+    offset += bytes;
+  };
+  read(&frame.time, sizeof frame.time);
+  visit_arrays(frame, [&](const char*, auto& array, bool nodal) {
+    array.resize(impl_->rows(nodal));
+    read(array.data(), array.size() * sizeof(array[0]));
+  });
+  return frame;
+}
+
 void ResumableHistoryWriter::flush() { impl_->frames.sync(); }
 
 void ResumableHistoryWriter::finish() {
   const std::filesystem::path joined = impl_->folder / "joined.h5";
   FemHistoryWriter out(joined, impl_->mesh, impl_->origin);
   out.set_gravity(impl_->gravity);
-  FemFrame frame;
-  std::size_t offset = 0;
-  const auto read = [&](void* to, std::size_t bytes) {
-    impl_->frames.read(offset, to, bytes);
-    offset += bytes;
-  };
-  for (std::size_t i = 0; i < impl_->num_frames; ++i) {
-    read(&frame.time, sizeof frame.time);
-    visit_arrays(frame, [&](const char*, auto& array, bool nodal) {
-      array.resize(impl_->rows(nodal));
-      read(array.data(), array.size() * sizeof(array[0]));
-    });
-    out.append(frame);
-  }
+  for (std::size_t i = 0; i < impl_->num_frames; ++i) out.append(frame(i));
   out.finish();
   std::error_code error;
   std::filesystem::rename(joined, impl_->path, error);

@@ -19,6 +19,8 @@ class ResumableHistoryWriter {
   ResumableHistoryWriter& operator=(const ResumableHistoryWriter&) = delete;
 
   void append(const FemFrame& frame);
+  /// A frame that has been appended, in this run or before it was interrupted.
+  [[nodiscard]] FemFrame frame(std::size_t index);
   /// Frames reach the disk; before a checkpoint that counts them.
   void flush();
   void finish();

@@ -56,6 +56,12 @@ struct TransferChoice {
 TransferChoice choose_transfer(const TransferTimeConfig& config, const ZoneHistory& history,
                                std::span<const double> base_energy);
 
+/// Whether no frames that follow can change the choice; with `when: automatic` that is so when Q
+/// has fallen below its limit and it is known whether the energy had risen before. Never with
+/// `when: end`, nor while the choice is the last frame for want of distortion.
+bool is_settled(const TransferTimeConfig& config, const ZoneHistory& history,
+                std::span<const double> base_energy);
+
 /// Mean of the samples in (t_i - length, t_i], for each i.
 std::vector<double> trailing_mean(std::span<const double> time, std::span<const double> value,
                                   double length);

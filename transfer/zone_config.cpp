@@ -46,9 +46,7 @@ struct Schema<ColumnConfig> {
   }
 };
 
-void Schema<ZoneConfig>::describe(FieldVisitor& v, ZoneConfig& c) {
-  static constexpr std::array<FieldVisitor::Column, 2> kPoint{
-      {{"x", Dim::length}, {"y", Dim::length}}};
+void Schema<TransferRuleConfig>::describe(FieldVisitor& v, TransferRuleConfig& c) {
   static constexpr std::array<FieldVisitor::Column, 2> kDensity{
       {{"material", Dim::none}, {"density", Dim::density}}};
   v.integers("liquefiable", c.liquefiable, "material tags of the soil that can liquefy");
@@ -56,12 +54,6 @@ void Schema<ZoneConfig>::describe(FieldVisitor& v, ZoneConfig& c) {
              "y of the original pond surface, the datum of depths");
   v.choice("when", c.transfer.when, kTransferWhens, "what decides the transfer time");
   v.quantity("at", c.transfer.at, Dim::time, {}, "transfer time, with when: at");
-  v.choice("zone", c.zone, kZoneExtents,
-           "found from r_u, all of the liquefiable soil, above a line, or inside a polygon");
-  v.rows("line", c.line, kPoint,
-         "lower boundary for zone: line, x rising; level to the left, its last segment goes on");
-  v.rows("polygon", c.polygon, kPoint, "corners for zone: polygon, in order");
-  v.group("strength", c.strength, "residual strength of the liquefied soil");
   v.rows("densities", c.densities, kDensity,
          "density of each material tag, for the kinetic energy");
   v.group("box", c.box, "part of the section that counts");
@@ -69,10 +61,22 @@ void Schema<ZoneConfig>::describe(FieldVisitor& v, ZoneConfig& c) {
   v.choice("depth_coordinates", c.depth_coordinates, kDepthCoordinates,
            "depth of a node where it was, or where it is");
   v.group("r_u", c.r_u, "excess pore-pressure ratio");
-  v.group("columns", c.columns, "columns in which the automatic zone is found");
   v.integers("base_nodes", c.base_nodes,
              "node tags whose mean velocity is that of the base; the lowest nodes if left out");
   v.group("automatic", c.transfer.automatic, "criteria of the automatic transfer time");
+}
+
+void Schema<ZoneConfig>::describe(FieldVisitor& v, ZoneConfig& c) {
+  static constexpr std::array<FieldVisitor::Column, 2> kPoint{
+      {{"x", Dim::length}, {"y", Dim::length}}};
+  Schema<TransferRuleConfig>::describe(v, c);
+  v.choice("zone", c.zone, kZoneExtents,
+           "found from r_u, all of the liquefiable soil, above a line, or inside a polygon");
+  v.rows("line", c.line, kPoint,
+         "lower boundary for zone: line, x rising; level to the left, its last segment goes on");
+  v.rows("polygon", c.polygon, kPoint, "corners for zone: polygon, in order");
+  v.group("strength", c.strength, "residual strength of the liquefied soil");
+  v.group("columns", c.columns, "columns in which the automatic zone is found");
 }
 
 namespace {
@@ -94,7 +98,7 @@ void check_points(std::string_view key, const std::vector<std::vector<double>>& 
 
 }  // namespace
 
-void check(const ZoneConfig& c) {
+void check(const TransferRuleConfig& c) {
   validate(!c.liquefiable.empty(),
            "liquefiable is empty (no material can liquefy) give the material tags, e.g. [168]");
   validate(std::isfinite(c.pond_surface),
@@ -104,15 +108,6 @@ void check(const ZoneConfig& c) {
              "windows.{}: from {} m is not less than to {} m (the window is empty) exchange them?",
              name, window.from, window.to);
   }
-  check_points("line", c.line, 2, c.zone == ZoneExtent::line);
-  for (std::size_t i = 1; i < c.line.size(); ++i) {
-    validate(
-        c.line[i][0] > c.line[i - 1][0],
-        "line point {}: x = {} m does not exceed the point before (the line must have one y for "
-        "each x) sort the points",
-        i + 1, c.line[i][0]);
-  }
-  check_points("polygon", c.polygon, 3, c.zone == ZoneExtent::polygon);
   std::set<double> tags;
   for (const std::vector<double>& row : c.densities) {
     validate(row.size() == 2 && row[0] == std::round(row[0]) && std::abs(row[0]) < 2147483647.0,
@@ -124,11 +119,24 @@ void check(const ZoneConfig& c) {
     validate(tags.insert(row[0]).second,
              "densities: material {} is given twice (which one holds?) remove one row", row[0]);
   }
+  check(c.transfer);
+}
+
+void check(const ZoneConfig& c) {
+  check(static_cast<const TransferRuleConfig&>(c));
+  check_points("line", c.line, 2, c.zone == ZoneExtent::line);
+  for (std::size_t i = 1; i < c.line.size(); ++i) {
+    validate(
+        c.line[i][0] > c.line[i - 1][0],
+        "line point {}: x = {} m does not exceed the point before (the line must have one y for "
+        "each x) sort the points",
+        i + 1, c.line[i][0]);
+  }
+  check_points("polygon", c.polygon, 3, c.zone == ZoneExtent::polygon);
   validate(!(c.zone == ZoneExtent::automatic && c.transfer.when == TransferWhen::gravity),
            "zone: automatic with when: gravity (r_u is zero in the gravity state, nothing would be "
            "liquefied) write zone: all, or choose a later time");
   check(c.strength);
-  check(c.transfer);
 }
 
 }  // namespace flowslide

@@ -45,25 +45,36 @@ struct ColumnConfig {
   int neighbours = 1;           ///< liquefied mesh neighbours that a liquefied node needs to count
 };
 
-struct ZoneConfig {
+/// What decides the transfer time.
+struct TransferRuleConfig {
   std::vector<int> liquefiable;  ///< material tags
   double pond_surface = kUnset;  ///< y of the pond surface, datum of depths [m]
   ZoneBox box;
   DepthWindows windows{{"crest", {-40.0, -20.0}}, {"pond", {-70.0, -50.0}}};
   DepthCoordinates depth_coordinates = DepthCoordinates::original;
   RuConfig r_u;
-  ZoneExtent zone = ZoneExtent::automatic;
-  std::vector<std::vector<double>> line;     ///< points [x, y] for zone: line [m]
-  std::vector<std::vector<double>> polygon;  ///< corners [x, y] for zone: polygon [m]
-  ColumnConfig columns;
-  StrengthConfig strength;
   std::vector<std::vector<double>> densities;  ///< rows [material tag, kg/m3]
   std::vector<int> base_nodes;                 ///< node tags; the lowest nodes if empty
   TransferTimeConfig transfer;
 };
 
+struct ZoneConfig : TransferRuleConfig {
+  ZoneExtent zone = ZoneExtent::automatic;
+  std::vector<std::vector<double>> line;     ///< points [x, y] for zone: line [m]
+  std::vector<std::vector<double>> polygon;  ///< corners [x, y] for zone: polygon [m]
+  ColumnConfig columns;
+  StrengthConfig strength;
+};
+
 /// Relations between settings that the ranges of the schema cannot express. Throws InputError.
+void check(const TransferRuleConfig& config);
 void check(const ZoneConfig& config);
+
+template <>
+struct Schema<TransferRuleConfig> {
+  static constexpr std::string_view doc = "What decides the time of transfer.";
+  static void describe(FieldVisitor& v, TransferRuleConfig& c);
+};
 
 template <>
 struct Schema<ZoneConfig> {

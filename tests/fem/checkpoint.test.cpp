@@ -1,9 +1,11 @@
 #include "fem/checkpoint.hpp"
 
 #include "fem/verify/scene.hpp"
+#include "model/history.hpp"
 #include "tests/support/scratch.hpp"
 
 #include <csignal>
+#include <memory>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -45,9 +47,10 @@ struct Scene {
       motion.acceleration.push_back(4.0 * std::sin(4.0 * kPi * motion.dt * i));
   }
 
-  FemFacts run(const std::filesystem::path& folder, const Progress& progress = {}) const {
+  FemFacts run(const std::filesystem::path& folder, const Progress& progress = {},
+               const StopRule& rule = {}) const {
     return run_fem(mesh, motion, settings, {folder / "history.h5", folder / "checkpoint"}, 1,
-                   progress);
+                   progress, rule);
   }
   /// One step.
   void interrupt(const std::filesystem::path& folder) const {
@@ -57,23 +60,25 @@ struct Scene {
     REQUIRE_THROWS_AS(run(folder, progress), Interrupted);
   }
   /// One step after the first recorded state from `fraction` on.
-  void interrupt_after(const std::filesystem::path& folder, double fraction) const {
+  void interrupt_after(const std::filesystem::path& folder, double fraction,
+                       const StopRule& rule = {}) const {
     std::atomic<bool> stop{false};
     Progress progress;
     progress.stop_requested = &stop;
     progress.report = [&](double done, std::string_view) { stop = done > fraction; };
-    REQUIRE_THROWS_AS(run(folder, progress), Interrupted);
+    REQUIRE_THROWS_AS(run(folder, progress, rule), Interrupted);
   }
 };
 
 /// All but the wall time.
 bool same(const FemFacts& a, const FemFacts& b) {
   return a.end_time == b.end_time && a.largest_displacement == b.largest_displacement &&
-         a.stopped == b.stopped && a.steps == b.steps && a.smallest_step == b.smallest_step &&
-         a.largest_step == b.largest_step && a.out_of_balance == b.out_of_balance &&
-         a.energy_error == b.energy_error && a.base_work == b.base_work &&
-         a.damping_work == b.damping_work && a.kinetic_energy == b.kinetic_energy &&
-         a.sub_steps == b.sub_steps && a.floored == b.floored && a.notes == b.notes;
+         a.stopped == b.stopped && a.stopped_by_rule == b.stopped_by_rule && a.steps == b.steps &&
+         a.smallest_step == b.smallest_step && a.largest_step == b.largest_step &&
+         a.out_of_balance == b.out_of_balance && a.energy_error == b.energy_error &&
+         a.base_work == b.base_work && a.damping_work == b.damping_work &&
+         a.kinetic_energy == b.kinetic_energy && a.sub_steps == b.sub_steps &&
+         a.floored == b.floored && a.notes == b.notes;
 }
 
 struct Whole {
@@ -149,6 +154,54 @@ TEST_CASE("A kill after the history was finished is no harm", "[fem]") {
   std::filesystem::copy_file(whole().folder / "history.h5", folder / "history.h5");
   scene.run(folder.path());
   CHECK(read_text_file(folder / "history.h5") == whole().bytes);
+}
+
+namespace {
+
+/// Ends a run where the displacements of a node, summed over the states, exceed a limit: a rule
+/// with a memory. `told` counts the states it was shown.
+StopRule path_limit(double limit, int& told, const std::string& name = "path") {
+  const auto sum = std::make_shared<double>(0.0);
+  told = 0;
+  return {name, [sum, limit, &told](const FemFrame& frame) {
+            ++told;
+            *sum += std::abs(frame.displacement.back()[0]);
+            return *sum > limit;
+          }};
+}
+
+}  // namespace
+
+TEST_CASE("A rule that ends a run sees every state once, also after an interruption", "[fem]") {
+  const Scene scene;
+  const Scratch once, parts;
+  int told = 0;
+  const FemHistory whole_history(whole().folder / "history.h5");
+  double limit = 0.0;
+  for (std::size_t i = 0; i < 7; ++i)
+    limit += std::abs(whole_history.frame(i).displacement.back()[0]);
+  limit *= 1.0 - 1e-9;
+  const FemFacts stopped = scene.run(once.path(), {}, path_limit(limit, told));
+  CHECK(stopped.stopped_by_rule);
+  CHECK_FALSE(stopped.stopped);
+  CHECK(told == 8);  // at rest, and seven states
+  CHECK(stopped.end_time == Approx(7 * 0.07));
+  CHECK(stopped.steps < whole().facts.steps);
+  CHECK(FemHistory(once / "history.h5").times().size() == 7);
+
+  scene.interrupt_after(parts.path(), 0.3, path_limit(limit, told));
+  const auto with_other_rule = [&] {
+    scene.run(parts.path(), {}, path_limit(limit, told, "other"));
+  };
+  CHECK_THROWS_WITH(with_other_rule(), Contains("belongs to a run with another section"));
+  const FemFacts continued = scene.run(parts.path(), {}, path_limit(limit, told));
+  CHECK(told == 8);
+  CHECK(same(continued, stopped));
+  CHECK(read_text_file(parts / "history.h5") == read_text_file(once / "history.h5"));
+  // control: a rule that never fires
+  const Scratch other;
+  CHECK(same(scene.run(other.path(), {}, path_limit(1e9, told)), whole().facts));
+  CHECK(read_text_file(other / "history.h5") == whole().bytes);
 }
 
 TEST_CASE("A damaged checkpoint of shaking is named", "[fem]") {

@@ -1,6 +1,7 @@
 #include "transfer/transfer_time.hpp"
 
 #include "core/check.hpp"
+#include "transfer/stop_config.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -42,6 +43,19 @@ struct Record {
   }
   [[nodiscard]] TransferChoice choose(const TransferTimeConfig& config = {}) const {
     return choose_transfer(config, h, base);
+  }
+  [[nodiscard]] bool settled(const TransferTimeConfig& config = {}) const {
+    return is_settled(config, h, base);
+  }
+  /// Its first `n` frames.
+  [[nodiscard]] Record first(std::size_t n) const {
+    Record r = *this;
+    r.base.resize(n);
+    for (std::vector<double>* x : {&r.h.time, &r.h.kinetic_energy, &r.h.kinetic_energy_relative,
+                                   &r.h.distortion_gauss, &r.h.distortion_centre, &r.h.depth[0],
+                                   &r.h.depth[1], &r.h.depth_max[0], &r.h.depth_max[1]})
+      x->resize(n);
+    return r;
   }
 };
 
@@ -161,6 +175,54 @@ TEST_CASE("times given by the user", "[transfer]") {
   CHECK(record.choose({.when = TransferWhen::end, .at = {}}).frame == 300);
   CHECK(record.choose({.when = TransferWhen::gravity, .at = {}}).frame == -1);
   CHECK(record.choose({.when = TransferWhen::gravity, .at = {}}).time == 0.0);
+}
+
+TEST_CASE("a choice that is settled stays, whatever follows", "[transfer]") {
+  // with a slide before the distortion, with one after it, and with none
+  for (const double failure : {11.0, 16.0, 1e9}) {
+    const Record whole(failure);
+    const TransferChoice choice = whole.choose();
+    std::size_t settled_at = 0;
+    for (std::size_t n = 1; n <= whole.h.time.size(); ++n) {
+      const Record part = whole.first(n);
+      if (settled_at > 0) CHECK(part.settled());
+      if (!part.settled()) continue;
+      if (settled_at == 0) settled_at = n;
+      CHECK(part.choose().frame == choice.frame);
+    }
+    // Distorted at 15.1 s; that there was no onset before is known 2 s later.
+    INFO(failure);
+    CHECK(whole.h.time[settled_at - 1] == Approx(failure < 15.0 ? 15.1 : 17.1).margin(0.01));
+    // control: while nothing is distorted the choice moves with the record
+    CHECK(whole.first(140).choose().frame == 139);
+    CHECK(choice.frame != 139);
+  }
+}
+
+TEST_CASE("a choice is not settled while the last frame is it", "[transfer]") {
+  CHECK_FALSE(Record(11.0, 1e9).settled());  // a slide, but no distortion
+  CHECK_FALSE(Record(1e9, 1e9).settled());
+  const Record record(11.0);
+  CHECK_FALSE(record.settled({.when = TransferWhen::end, .at = {}}));
+  CHECK(record.settled({.when = TransferWhen::gravity, .at = {}}));
+  const TransferTimeConfig at{.when = TransferWhen::at, .at = 7.02};
+  CHECK_FALSE(record.first(71).settled(at));  // 7.0 s; 7.1 s might be nearer
+  CHECK(record.first(72).settled(at));
+  CHECK(record.first(72).choose(at).frame == record.choose(at).frame);
+}
+
+TEST_CASE("a run cannot be stopped by a rule that says nothing about its end", "[transfer]") {
+  StopAtTransferConfig c;
+  c.liquefiable = {168};
+  c.pond_surface = 30.0;
+  CHECK_NOTHROW(check(c));
+  c.transfer.when = TransferWhen::end;
+  CHECK_THROWS_WITH(check(c), Catch::Contains("stop_at_transfer has when: end"));
+  c.transfer.when = TransferWhen::gravity;
+  CHECK_THROWS_AS(check(c), InputError);
+  c.transfer.when = TransferWhen::automatic;
+  c.liquefiable.clear();
+  CHECK_THROWS_WITH(check(c), Catch::Contains("liquefiable is empty"));
 }
 
 TEST_CASE("a history without frames can only be transferred at gravity", "[transfer]") {

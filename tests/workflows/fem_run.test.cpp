@@ -1,8 +1,11 @@
 #include "model/history.hpp"
+#include "model/zone.hpp"
 #include "tests/support/scratch.hpp"
 #include "workflows/engine/run_folder.hpp"
 #include "workflows/engine/runner.hpp"
 #include "workflows/stages/stage_list.hpp"
+
+#include <cstring>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -154,4 +157,117 @@ TEST_CASE("a workflow that is interrupted in fem.run continues there", "[workflo
   };
   CHECK(facts("parts").size() > 10);
   CHECK(facts("parts") == facts("whole"));
+}
+
+namespace {
+
+/// A steep slope of loose sand; in one text with settings of the transfer rule for both stages.
+std::string slope(bool stops, const char* pga) {
+  const std::string rule = R"(
+      liquefiable: [5]
+      pond_surface: 9 m
+      windows: {all: {from: 0 m, to: 20 m}}
+      densities: [[5, 1900 kg/m3]]
+      r_u: {floor: 4 kPa}
+      automatic: {smoothing: 0.4 s, growth: 1, sustain: 0.1 s, distortion_limit: 0.99}
+)";
+  std::string nested = "      stop_at_transfer:";
+  for (const char c : rule) nested += c == '\n' ? std::string("\n  ") : std::string(1, c);
+  return fmt::format(R"(schema: 1
+name: slope
+stages:
+  motion:
+    uses: motion.prepare
+    with: {{synthetic: {{pga: {}, tm: 0.5 s, d5_95: 4 s, lead: 0 s}}}}
+  mesh:
+    uses: mesh.section
+    with:
+      size: 4 m
+      materials: {{sand: {{tag: 5}}}}
+      blocks:
+        sand: {{outline: [[0 m, 0 m], [24 m, 0 m], [24 m, 1 m], [0 m, 9 m]], material: sand}}
+  shake:
+    uses: fem.run
+    in: {{mesh: mesh.mesh, motion: motion.motion}}
+    with:
+      end: 5 s
+      output_interval: 0.1 s
+      courant: 0.9
+      materials:
+        sand:
+          density: 1900 kg/m3
+          void_ratio: 0.8
+          permeability: [1e-5 m/s, 1e-5 m/s]
+          pm4sand: {{Dr: 0.35, G0: 476, hpo: 0.53}}
+      water: {{table: [[0 m, 9 m], [24 m, 1 m]]}}
+      base: {{motion: within}}
+{}
+  zone:
+    uses: transfer.zone
+    in: {{history: shake.history}}
+    with:{}
+      strength: {{table: [[1 kPa, 1 kPa], [100 kPa, 9 kPa]]}}
+)",
+                     pga, stops ? nested : std::string(), rule);
+}
+
+std::filesystem::path zone_file(const Case& c, const std::string& text, const std::string& folder) {
+  const auto plan = plan_workflow(c.load(text.c_str()), c.scratch / folder);
+  return result_folder(c.scratch / folder, "zone", plan.back().decision.key) / "zone.h5";
+}
+
+std::filesystem::path shake_file(const Case& c, const std::string& text,
+                                 const std::string& folder) {
+  const auto plan = plan_workflow(c.load(text.c_str()), c.scratch / folder);
+  return result_folder(c.scratch / folder, "shake", plan[plan.size() - 2].decision.key) /
+         "history.h5";
+}
+
+}  // namespace
+
+TEST_CASE("shaking stopped by the rule of the transfer gives the same zone", "[workflows]") {
+  const Case c;
+  const std::string all = slope(false, "0.4 g"), part = slope(true, "0.4 g");
+  c.run(all.c_str(), "all");
+  c.run(part.c_str(), "part");
+  const FemHistory whole(shake_file(c, all, "all")), stopped(shake_file(c, part, "part"));
+  CHECK(whole.times().size() == 50);
+  REQUIRE(stopped.times().size() < 40);
+  const std::size_t last = stopped.times().size() - 1;
+  CHECK(stopped.frame(last).displacement == whole.frame(last).displacement);
+  const LiquefactionZone a = read_zone(zone_file(c, all, "all"));
+  const LiquefactionZone b = read_zone(zone_file(c, part, "part"));
+  CHECK(b.transfer_time == a.transfer_time);
+  CHECK(b.transfer_frame == a.transfer_frame);
+  CHECK(b.transfer_frame < static_cast<int>(last));  // the rule, not the end of the record
+  const auto same = [](const std::vector<double>& x, const std::vector<double>& y) {
+    return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(double)) == 0;
+  };
+  CHECK(same(b.r_u_node, a.r_u_node));
+  CHECK(same(b.strength, a.strength));
+  CHECK(b.liquefied == a.liquefied);
+  CHECK(std::ranges::count(a.liquefied, 1) > 0);
+  CHECK(b.lower_boundary == a.lower_boundary);
+  CHECK(b.window_depth_max == a.window_depth_max);
+
+  // interrupted on the way, the rule goes on with what it knew
+  std::atomic<bool> stop = false;
+  RunEvents events;
+  events.progress = [&](std::string_view stage, double fraction, std::string_view) {
+    stop = stage == "shake" && fraction > 0.3;
+  };
+  const RunOptions options{.folder = c.scratch / "pieces", .stop_requested = &stop};
+  CHECK_THROWS(run_workflow(c.load(part.c_str()), options, events));
+  run_workflow(c.load(part.c_str()), {.folder = c.scratch / "pieces"}, {});
+  CHECK(read_text_file(shake_file(c, part, "pieces")) ==
+        read_text_file(shake_file(c, part, "part")));
+}
+
+TEST_CASE("shaking that never fails runs to its end, whatever may stop it", "[workflows]") {
+  const Case c;
+  const std::string all = slope(false, "0.02 g"), part = slope(true, "0.02 g");
+  c.run(all.c_str(), "all");
+  c.run(part.c_str(), "part");
+  CHECK(read_text_file(shake_file(c, part, "part")) == read_text_file(shake_file(c, all, "all")));
+  CHECK(read_text_file(zone_file(c, part, "part")) == read_text_file(zone_file(c, all, "all")));
 }

@@ -2,7 +2,12 @@
 #include "fem/run.hpp"
 #include "model/history.hpp"
 #include "model/motion_file.hpp"
+#include "transfer/stop_config.hpp"
+#include "transfer/zone_record.hpp"
 #include "workflows/stages/stage_list.hpp"
+
+#include <memory>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -10,6 +15,7 @@ namespace flowslide {
 namespace {
 
 struct FemRunConfig : FemConfig {
+  std::optional<StopAtTransferConfig> stop_at_transfer;
   bool opensees_recorders = false;
 };
 
@@ -20,6 +26,7 @@ struct Schema<FemRunConfig> {
   static constexpr std::string_view doc = Schema<FemConfig>::doc;
   static void describe(FieldVisitor& v, FemRunConfig& c) {
     Schema<FemConfig>::describe(v, c);
+    v.group("stop_at_transfer", c.stop_at_transfer, Schema<StopAtTransferConfig>::doc);
     v.flag("opensees_recorders", c.opensees_recorders,
            "write the folder recorders too: text files with the names, columns and units (m, s, "
            "kPa) of scripts around OpenSees");
@@ -27,6 +34,25 @@ struct Schema<FemRunConfig> {
 };
 
 namespace {
+
+/// Follows the scalars of transfer.zone from state to state.
+StopRule stop_rule(const QuadMesh& mesh, const std::optional<StopAtTransferConfig>& config) {
+  if (!config) return {};
+  struct Watch {
+    std::optional<ZoneRecorder> record;
+    std::optional<double> settled;  ///< when the choice became final [s]
+  };
+  const auto watch = std::make_shared<Watch>();
+  return {canonical_text(*config), [watch, mesh, c = *config](const FemFrame& frame) {
+            if (!watch->record) {
+              watch->record.emplace(mesh, frame, c);
+              return false;
+            }
+            watch->record->append(frame);
+            if (!watch->settled && watch->record->is_settled()) watch->settled = frame.time;
+            return watch->settled && frame.time >= *watch->settled + c.after * (1.0 - 1e-9);
+          }};
+}
 
 struct FemRun {
   static constexpr std::string_view name = "fem.run";
@@ -47,14 +73,19 @@ struct FemRun {
     Artifact<FemHistory> history{"history.h5"};
     void visit(auto&& port) { port("history", history); }
   };
-  static void check(const Config& config) { flowslide::check(config); }
+  static void check(const Config& config) {
+    flowslide::check(config);
+    if (config.stop_at_transfer) flowslide::check(*config.stop_at_transfer);
+  }
   static StageResult run(const RunContext& context, const Config& config, const Inputs& in,
                          const Outputs& out) {
-    const FemFacts f = run_fem(read_section_mesh(in.mesh.path), read_motion_file(in.motion.path),
-                               config, {out.history.path, context.folder / "checkpoint"},
-                               context.threads, context.progress);
+    const SectionMesh section = read_section_mesh(in.mesh.path);
+    const FemFacts f = run_fem(section, read_motion_file(in.motion.path), config,
+                               {out.history.path, context.folder / "checkpoint"}, context.threads,
+                               context.progress, stop_rule(section.mesh, config.stop_at_transfer));
     nlohmann::ordered_json facts = {{"fem_end_s", f.end_time},
                                     {"fem_stopped_by_displacement", f.stopped},
+                                    {"fem_stopped_at_transfer", f.stopped_by_rule},
                                     {"fem_largest_displacement_m", f.largest_displacement},
                                     {"fem_steps", f.steps},
                                     {"fem_smallest_step_s", f.smallest_step},
