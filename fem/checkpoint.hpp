@@ -1,5 +1,6 @@
 #pragma once
 #include "fem/config.hpp"
+#include "fem/implicit.hpp"
 #include "fem/solver.hpp"
 #include "model/ground_motion.hpp"
 #include "model/section_mesh.hpp"
@@ -18,6 +19,7 @@ struct RunState {
   double smallest_step = 0.0, largest_step = 0.0;  ///< [s]
   double largest_displacement = 0.0;               ///< at the last recorded state [m]
   double seconds = 0.0;                            ///< wall time of the steps so far
+  ImplicitRecord implicit{};
 };
 
 /// SHA-256 of all that a run starts from.

@@ -29,6 +29,8 @@ void check(const FemConfig& c) {
            "damping has one of mass and stiffness give both, or ratio and frequencies");
   validate(c.damping.frequencies[0] > 0.0 && c.damping.frequencies[1] > c.damping.frequencies[0],
            "damping.frequencies must be positive and increase");
+  validate(c.integration.smallest_step <= c.integration.step,
+           "integration.smallest_step exceeds integration.step (no step is left) exchange them?");
   if (!c.water) return;
   validate(!c.water->table.empty(),
            "water.table is empty (it says where water stands) give at "
@@ -117,6 +119,20 @@ void Schema<StabilisationConfig>::describe(FieldVisitor& v, StabilisationConfig&
       "bound hourglass stress by the strength of the soil; false: elastic for ever, as SSPquadUP");
 }
 
+void Schema<IntegrationConfig>::describe(FieldVisitor& v, IntegrationConfig& c) {
+  v.choice("scheme", c.scheme, kIntegrationSchemes,
+           "explicit: central differences, the water implicit; implicit: both together, with "
+           "iterations");
+  v.quantity("step", c.step, Dim::time, {.above = 0.0}, "largest implicit step");
+  v.quantity("smallest_step", c.smallest_step, Dim::time, {.above = 0.0},
+             "a step that does not converge is halved down to this, then the run ends");
+  v.quantity("tolerance", c.tolerance, Dim::none, {.above = 0.0},
+             "largest force out of balance at a node, of its weight");
+  v.integer("max_iterations", c.max_iterations, {.min = 2}, "of a step before it is halved");
+  v.quantity("theta", c.theta, Dim::none, {.min = 0.5, .max = 1.0},
+             "weight of the end of the step: 0.5 the trapezoidal rule, 1 Euler's, which damps");
+}
+
 void Schema<FemConfig>::describe(FieldVisitor& v, FemConfig& c) {
   v.table("materials", c.materials, "soils by the names of the mesh");
   v.group("water", c.water, Schema<WaterConfig>::doc);
@@ -125,6 +141,7 @@ void Schema<FemConfig>::describe(FieldVisitor& v, FemConfig& c) {
   v.group("sides", c.sides, Schema<FemSideConfig>::doc);
   v.group("damping", c.damping, Schema<FemDampingConfig>::doc);
   v.group("stabilisation", c.stabilisation, Schema<StabilisationConfig>::doc);
+  v.group("integration", c.integration, Schema<IntegrationConfig>::doc);
   v.quantity("end", c.end, Dim::time, {.above = 0.0}, "end of the run; left out: of the motion");
   v.quantity("stop_displacement", c.stop_displacement, Dim::length, {.above = 0.0},
              "the run ends early, at the first recorded state in which a node has moved this far "

@@ -69,6 +69,19 @@ struct StabilisationConfig {
   bool hourglass_yields = true;   ///< at the strength of the soil
 };
 
+enum class IntegrationScheme { explicit_steps, implicit };
+inline constexpr std::array<std::string_view, 2> kIntegrationSchemes{"explicit", "implicit"};
+
+/// All but the scheme belong to implicit steps.
+struct IntegrationConfig {
+  IntegrationScheme scheme = IntegrationScheme::explicit_steps;
+  double step = 5e-3;           ///< largest [s]
+  double smallest_step = 2e-5;  ///< [s]
+  double tolerance = 1e-4;      ///< of a node's weight
+  int max_iterations = 40;
+  double theta = 0.5;
+};
+
 struct FemConfig {
   std::map<std::string, FemMaterialConfig> materials;
   std::optional<WaterConfig> water;
@@ -77,6 +90,7 @@ struct FemConfig {
   FemSideConfig sides;
   FemDampingConfig damping;
   StabilisationConfig stabilisation;
+  IntegrationConfig integration;
   std::optional<double> end;                ///< [s]; the duration of the motion if left out
   std::optional<double> stop_displacement;  ///< against the base [m]
   double output_interval = 0.25;            ///< [s]
@@ -124,6 +138,13 @@ template <>
 struct Schema<StabilisationConfig> {
   static constexpr std::string_view doc = "What single-point elements need besides the physics.";
   static void describe(FieldVisitor& v, StabilisationConfig& c);
+};
+template <>
+struct Schema<IntegrationConfig> {
+  static constexpr std::string_view doc =
+      "Time integration of the shaking. Implicit steps are a check of the explicit ones; all "
+      "settings but the scheme are theirs.";
+  static void describe(FieldVisitor& v, IntegrationConfig& c);
 };
 template <>
 struct Schema<FemConfig> {

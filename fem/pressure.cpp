@@ -3,9 +3,10 @@
 #include <algorithm>
 
 namespace flowslide::fem {
-namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
+
+namespace {
 
 /// sum over elements of V (cx b_x b_x + cy b_y b_y) between unknown pressures.
 Sparse gradient_matrix(const PressureSystem& s, const Layout& l, const auto& coefficient) {
@@ -93,6 +94,13 @@ std::vector<double> steady_pressure(const Model& model, const Layout& l, const P
   for (std::size_t i = 0; i < u.size(); ++i)
     if (s.equation[i] < s.num_equations) u[i] = rhs[s.equation[i]];
   return u;
+}
+
+Sparse storage_matrix(const PressureSystem& s, const Layout& l) {
+  Sparse m =
+      gradient_matrix(s, l, [&](std::size_t e) { return std::pair(s.alpha[e], s.alpha[e]); });
+  for (std::int32_t i = 0; i < s.num_equations; ++i) m.coeffRef(i, i) += s.storage[i];
+  return m;
 }
 
 void factorise(PressureSystem& s, const Layout& l, double dt) {

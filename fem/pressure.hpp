@@ -27,6 +27,9 @@ PressureSystem make_pressure_system(const Model& model, const Layout& layout);
 std::vector<double> steady_pressure(const Model& model, const Layout& layout,
                                     const PressureSystem& system);
 
+/// S + alpha L.
+Eigen::SparseMatrix<double> storage_matrix(const PressureSystem& system, const Layout& layout);
+
 /// Factorises storage + alpha L + dt H for steps of `dt`.
 void factorise(PressureSystem& system, const Layout& layout, double dt);
 

@@ -3,6 +3,8 @@
 #include "fem/build_model.hpp"
 #include "fem/checkpoint.hpp"
 #include "fem/gravity.hpp"
+#include "fem/implicit.hpp"
+#include "fem/run_states.hpp"
 #include "fem/time_step.hpp"
 #include "model/checkpoint_file.hpp"
 #include "model/resumable_history.hpp"
@@ -10,6 +12,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
+#include <memory>
 
 #include <omp.h>
 
@@ -56,76 +60,21 @@ void set_stabilisation(Solver& s, const StabilisationConfig& c) {
   }
 }
 
-/// The state on the nodes and elements of the section.
-void fill(FemFrame& frame, const Solver& s, std::size_t nodes, std::size_t elements) {
-  frame.time = s.state.time;
-  frame.displacement.resize(nodes);
-  frame.velocity.resize(nodes);
-  frame.pore_pressure.assign(s.state.pressure.begin(), s.state.pressure.begin() + nodes);
-  frame.stress.resize(elements);
-  frame.strain.resize(elements);
-  for (std::size_t i = 0; i < nodes; ++i)
-    for (int d = 0; d < 2; ++d) {
-      frame.displacement[i][d] = s.state.displacement[s.model.dof[i][d]];
-      frame.velocity[i][d] = s.state.velocity[s.model.dof[i][d]];
-    }
-  const Elements& g = s.layout.elements;
-  for (std::size_t k = 0; k < g.size(); ++k) {
-    const auto e = static_cast<std::size_t>(s.layout.order[k]);
-    if (e >= elements) continue;
-    frame.stress[e] = s.state.stress[k];
-    StrainIncrement<2>& strain = frame.strain[e];
-    strain = {};
-    for (int i = 0; i < 4; ++i) {
-      const Vec2& u = frame.displacement[s.layout.nodes[k][i]];
-      strain[0] += g.bx[i][k] * u[0];
-      strain[1] += g.by[i][k] * u[1];
-      strain[3] += g.by[i][k] * u[0] + g.bx[i][k] * u[1];
-    }
-  }
-}
-
-/// Water at rest that stands far below the table is easily overlooked: layers drain each other by
-/// their permeabilities, and the soil is stronger for it.
-std::optional<std::string> drained_note(const SectionMesh& section, const FemConfig& config,
-                                        const Solver& s) {
-  if (!config.water) return std::nullopt;
-  const double unit_weight = s.model.fluid.density * s.model.gravity;
-  double missing = 0.0, standing = 0.0;
-  std::size_t worst = 0;
-  for (std::size_t i = 0; i < section.mesh.num_nodes(); ++i) {
-    const auto [x, y] = section.mesh.nodes[i];
-    const double p = unit_weight * std::max(0.0, water_level(*config.water, x) - y);
-    if (p - s.state.pressure[i] <= missing || is_set(s.model.known_pressure[i])) continue;
-    missing = p - s.state.pressure[i];
-    standing = p;
-    worst = i;
-  }
-  if (!(missing > 0.5 * standing)) return std::nullopt;
-  return fmt::format(
-      "pore pressure at rest lies up to {:.0f} kPa below that of standing water ({:.0f} kPa at "
-      "({:.1f}, {:.1f}) m): steady flow by the permeabilities given drains the ground; "
-      "gravity.permeability, one for all soil, leaves the water standing",
-      1e-3 * missing, 1e-3 * standing, section.mesh.nodes[worst][0], section.mesh.nodes[worst][1]);
-}
-
-/// Of the nodes against the mean of those at the base [m].
-double largest_displacement(const FemFrame& frame, const std::vector<std::int32_t>& base) {
-  Vec2 ground{};
-  for (const std::int32_t i : base)
-    for (int d = 0; d < 2; ++d)
-      ground[d] += frame.displacement[i][d] / static_cast<double>(base.size());
-  double largest = 0.0;
-  for (const Vec2& u : frame.displacement)
-    largest = std::max(largest, std::hypot(u[0] - ground[0], u[1] - ground[1]));
-  return largest;
-}
-
-/// Keeps the step below the stable one and makes steps end at the times of output.
-class StepControl {
+/// Explicit steps below the stable one that end at the times of output.
+class ExplicitSteps {
  public:
-  StepControl(Solver& s, double courant) : courant_(courant), water_(water_frequency(s)) {}
+  ExplicitSteps(Solver& s, double courant) : courant_(courant), water_(water_frequency(s)) {}
 
+  void advance(Solver& s, RunState& run, double left, const Velocity& ground) {
+    if (run.since++ >= kModuliInterval) {
+      refresh_moduli(s);
+      choose(s, left);
+      run.since = 1;
+    }
+    fem::advance(s, {ground.at(s.state.time), ground.at(s.state.time + s.dt)});
+  }
+
+ private:
   void choose(Solver& s, double left) {
     const double allowed = courant_ * stable_step({soil_frequency(s), water_}, s.damping.stiffness);
     if (!(allowed > 1e-9))
@@ -139,9 +88,27 @@ class StepControl {
     s.dt = left / std::max(1.0, std::ceil(left / (0.97 * allowed)));
   }
 
- private:
   double courant_, water_;
 };
+
+/// Takes one step of the scheme that the settings name; is told the time left to the next output.
+std::function<void(Solver&, RunState&, double)> make_stepper(Solver& s, const FemConfig& config,
+                                                             const GroundMotion& motion) {
+  const IntegrationConfig& c = config.integration;
+  const auto ground = std::make_shared<const Velocity>(motion);
+  if (c.scheme == IntegrationScheme::implicit) {
+    const auto steps = std::make_shared<ImplicitSteps>(
+        s, ImplicitSettings{c.step, c.smallest_step, c.tolerance, c.max_iterations, c.theta});
+    return [=](Solver& solver, RunState& run, double left) {
+      refresh_moduli(solver);
+      steps->advance(solver, run.implicit, left, [&](double t) { return ground->at(t); });
+    };
+  }
+  const auto steps = std::make_shared<ExplicitSteps>(s, config.courant);
+  return [=](Solver& solver, RunState& run, double left) {
+    steps->advance(solver, run, left, *ground);
+  };
+}
 
 }  // namespace
 
@@ -159,7 +126,6 @@ FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const F
   set_stabilisation(s, config.stabilisation);
   if (config.stabilisation.hourglass_yields) let_hourglass_yield(s);
 
-  const Velocity ground(motion);
   const double end = config.end.value_or(motion.duration());
   const std::size_t nodes = section.mesh.num_nodes(), elements = section.mesh.num_elements();
   std::vector<std::string> notes = section.notes;
@@ -169,7 +135,7 @@ FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const F
   }
   FemFrame frame;
   fill(frame, s, nodes, elements);
-  StepControl control(s, config.courant);
+  const auto step = make_stepper(s, config, motion);
   start_motion(s);
   s.dt = 1e-12;
   RunState run{.since = kModuliInterval, .smallest_step = end};
@@ -203,14 +169,9 @@ FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const F
   while (s.state.time < end * (1.0 - 1e-9) && !facts.stopped && !facts.stopped_by_rule) {
     const double target = std::min(end, static_cast<double>(run.output) * config.output_interval);
     while (target - s.state.time > 1e-9 * config.output_interval) {
-      if (run.since++ >= kModuliInterval) {
-        refresh_moduli(s);
-        control.choose(s, target - s.state.time);
-        run.smallest_step = std::min(run.smallest_step, s.dt);
-        run.largest_step = std::max(run.largest_step, s.dt);
-        run.since = 1;
-      }
-      advance(s, {ground.at(s.state.time), ground.at(s.state.time + s.dt)});
+      step(s, run, target - s.state.time);
+      run.smallest_step = std::min(run.smallest_step, s.dt);
+      run.largest_step = std::max(run.largest_step, s.dt);
       if (progress.should_stop()) {
         checkpoint();
         throw Interrupted(
@@ -245,6 +206,9 @@ FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const F
   facts.kinetic_energy = energy.kinetic;
   facts.sub_steps = static_cast<double>(s.counters.sub_steps);
   facts.floored = static_cast<double>(s.counters.floored);
+  facts.iterations = run.implicit.iterations;
+  facts.most_iterations = run.implicit.most_iterations;
+  facts.cut_steps = run.implicit.cut;
   return facts;
 }
 

@@ -27,8 +27,11 @@ struct FemFacts {
   double damping_work = 0.0;                       ///< lost in dashpots and Rayleigh damping [J/m]
   double kinetic_energy = 0.0;                     ///< at the end [J/m]
   double sub_steps = 0.0;                          ///< of PM4Sand
-  double floored = 0.0;  ///< sub-steps that ended at the floor of mean stress
-  double seconds = 0.0;  ///< wall time of the steps
+  double floored = 0.0;         ///< sub-steps that ended at the floor of mean stress
+  std::int64_t iterations = 0;  ///< of implicit steps
+  int most_iterations = 0;      ///< in an implicit step that converged
+  std::int64_t cut_steps = 0;   ///< implicit steps that did not converge and were halved
+  double seconds = 0.0;         ///< wall time of the steps
   std::vector<std::string> notes;
 };
 

@@ -97,6 +97,9 @@ struct FemRun {
                                     {"fem_kinetic_energy_j", f.kinetic_energy},
                                     {"fem_sub_steps", f.sub_steps},
                                     {"fem_sub_steps_at_floor", f.floored},
+                                    {"fem_iterations", f.iterations},
+                                    {"fem_most_iterations", f.most_iterations},
+                                    {"fem_cut_steps", f.cut_steps},
                                     {"fem_seconds", f.seconds},
                                     {"fem_notes", f.notes}};
     StageResult result{.facts = {}, .publish = {}};
