@@ -30,6 +30,8 @@ std::vector<VerificationCase> fem_cases() {
        verify_pm4sand_step},
       {"fem/f9_implicit", "sand column: implicit integration with an assembly of its own", true,
        verify_implicit},
+      {"fem/f9_slope", "slope of sand: explicit against implicit steps, until it liquefies", true,
+       verify_implicit_slope},
       {"fem/f10_velacs", "level and inclined sand on the centrifuge", false, verify_centrifuge},
       {"fem/c2_rest", "a slope of sand at rest for 10 s", true, verify_rest},
       {"fem/c2_bending", "cantilever, against the beam", true, verify_bending},

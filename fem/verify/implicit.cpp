@@ -1,3 +1,6 @@
+#include "fem/implicit.hpp"
+
+#include "fem/verify/dense_assembly.hpp"
 #include "fem/verify/list.hpp"
 #include "fem/verify/scene.hpp"
 
@@ -6,92 +9,9 @@
 #include <Eigen/Dense>
 
 /// Shaking integrated implicitly, motion and water together and with an assembly of its own: a
-/// check of the explicit path by another one. Small sections only; matrices are full.
+/// check of the explicit steps, and of the implicit ones of the program. Matrices are full.
 namespace flowslide::fem {
 namespace {
-
-using Matrix = Eigen::MatrixXd;
-using Vector = Eigen::VectorXd;
-
-/// M dv/dt + F(stress) - Q p + (c + beta K) v = w and S dp/dt + H p + Q^T v + g = 0, `S` with the
-/// stabilisation; pressures of all nodes.
-struct Operators {
-  Matrix K, Q, S, H;
-  Vector gravity_flow;
-};
-
-Operators assemble(const Solver& s) {
-  const Elements& g = s.layout.elements;
-  const auto n = s.model.num_dofs + 1;
-  const auto nodes = static_cast<Eigen::Index>(s.model.mesh.num_nodes());
-  Operators r{Matrix::Zero(n, n), Matrix::Zero(n, nodes), Matrix::Zero(nodes, nodes),
-              Matrix::Zero(nodes, nodes), Vector::Zero(nodes)};
-  const double unit_weight = s.model.fluid.density * s.model.gravity;
-  for (std::size_t e = 0; e < g.size(); ++e) {
-    const double V = g.volume[e], G = s.shear[e], M = s.lambda[e] + 2.0 * G;
-    const double porosity = s.model.materials[s.layout.material[e]].porosity;
-    for (int i = 0; i < 4; ++i) {
-      const auto ux = s.layout.dofs[e][2 * i], uy = s.layout.dofs[e][2 * i + 1];
-      const double x = g.bx[i][e], y = g.by[i][e], gi = s.hourglass_shear[e] * g.gamma[i][e];
-      const auto node = s.layout.nodes[e][i];
-      r.S(node, node) += 0.25 * V * porosity / s.model.fluid.bulk_modulus;
-      r.gravity_flow[node] += V * y * s.water.mobility_y[e] * unit_weight;
-      for (int j = 0; j < 4; ++j) {
-        const auto vx = s.layout.dofs[e][2 * j], vy = s.layout.dofs[e][2 * j + 1];
-        const double a = g.bx[j][e], b = g.by[j][e], gj = g.gamma[j][e];
-        r.K(ux, vx) += V * (M * x * a + G * y * b) + gi * gj * g.hss[e];
-        r.K(ux, vy) += V * (s.lambda[e] * x * b + G * y * a) - gi * gj * g.hst[e];
-        r.K(uy, vx) += V * (s.lambda[e] * y * a + G * x * b) - gi * gj * g.hst[e];
-        r.K(uy, vy) += V * (M * y * b + G * x * a) + gi * gj * g.htt[e];
-        const auto other = s.layout.nodes[e][j];
-        r.Q(ux, other) += 0.25 * V * x;
-        r.Q(uy, other) += 0.25 * V * y;
-        r.S(node, other) += V * s.water.alpha[e] * (x * a + y * b);
-        r.H(node, other) += V * (s.water.mobility_x[e] * x * a + s.water.mobility_y[e] * y * b);
-      }
-    }
-  }
-  return r;
-}
-
-struct Trial {
-  std::vector<Stress<2>> stress;
-  std::vector<PM4Sand::State> sand;
-  Vector force;  ///< of effective stress; hourglass motion is elastic, K without the strain part
-};
-
-/// Stress after displacements `du` and its nodal forces.
-Trial deform(const Solver& s, const Vector& du) {
-  const Elements& g = s.layout.elements;
-  Trial r{s.state.stress, s.state.pm4sand, Vector::Zero(du.size())};
-  for (std::size_t e = 0; e < g.size(); ++e) {
-    StrainIncrement<2> de{};
-    double hx = s.state.hourglass_x[e], hy = s.state.hourglass_y[e];
-    for (int i = 0; i < 4; ++i) {
-      const double ux = du[s.layout.dofs[e][2 * i]], uy = du[s.layout.dofs[e][2 * i + 1]];
-      de[0] += g.bx[i][e] * ux;
-      de[1] += g.by[i][e] * uy;
-      de[3] += g.by[i][e] * ux + g.bx[i][e] * uy;
-      hx += g.gamma[i][e] * ux;
-      hy += g.gamma[i][e] * uy;
-    }
-    const auto update =
-        PM4Sand::update(s.laws.pm4sand[s.layout.material[e]], r.sand[e], r.stress[e], de);
-    r.stress[e] = update.stress;
-    r.sand[e] = update.state;
-    const double G = s.hourglass_shear[e], V = g.volume[e];
-    const double fx = G * (g.hss[e] * hx - g.hst[e] * hy);
-    const double fy = G * (g.htt[e] * hy - g.hst[e] * hx);
-    for (int i = 0; i < 4; ++i) {
-      const double x = g.bx[i][e], y = g.by[i][e];
-      r.force[s.layout.dofs[e][2 * i]] +=
-          V * (x * r.stress[e][0] + y * r.stress[e][3]) + g.gamma[i][e] * fx;
-      r.force[s.layout.dofs[e][2 * i + 1]] +=
-          V * (y * r.stress[e][1] + x * r.stress[e][3]) + g.gamma[i][e] * fy;
-    }
-  }
-  return r;
-}
 
 /// How the top moves, and r_u in the middle at the end.
 struct History {
@@ -218,6 +138,22 @@ History shake_implicitly(double dt, double theta) {
   return h;
 }
 
+/// The same with the implicit steps of the program.
+History shake_with_program(double dt) {
+  Solver s = column();
+  ImplicitSteps steps(s, {.step = dt, .tolerance = 1e-6});
+  ImplicitRecord record;
+  History h{{0.0}, {0.0}};
+  while (s.state.time < kEnd - 0.5 * dt) {
+    steps.advance(s, record, kEnd - s.state.time, ground);
+    h.time.push_back(s.state.time);
+    h.top.push_back(s.state.displacement[s.model.dof.back()[0]]);
+  }
+  h.r_u = middle_r_u(s);
+  h.energy_error = s.state.energy.error();
+  return h;
+}
+
 /// Root mean square difference of the top's displacement over the largest.
 double difference(const History& a, const History& b) {
   double sum = 0.0, largest = 0.0;
@@ -243,6 +179,9 @@ std::vector<Check> verify_implicit(std::string_view name) {
                   difference(coarse, direct) / difference(fine, direct), 3.0);
   checks.error("energy_explicit", direct.energy_error, 1e-8);
   checks.error("energy_implicit", fine.energy_error, 1e-6);
+  const History program = shake_with_program(2e-3);
+  checks.error("program_against_own_assembly", difference(program, fine), 1e-5);
+  checks.error("energy_program", program.energy_error, 1e-6);
   // control: Euler's rule damps, and the check sees it
   checks.at_least("control", difference(shake_implicitly(2e-3, 1.0), direct), 0.01);
   return checks.take();
