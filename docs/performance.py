@@ -98,6 +98,23 @@ def dam_table(rows):
     return "\n".join(lines)
 
 
+def implicit_table(rows):
+    lines = [
+        "| run | steps | iterations per step, most | steps cut | crest, m | error "
+        "| mean r_u under the pond | M sub-steps | energy error | core seconds |",
+        "|---|---|---|---|---|---|---|---|---|---|",
+    ]
+    for r in rows:
+        lines.append(
+            f"| {r['name'].split('/', 3)[3]} | {r['steps']:,.0f} "
+            f"| {r['iterations'] / r['steps']:.1f}, {r['most_iterations']:.0f} "
+            f"| {r['cut_steps']:.0f} | {r['crest_m']:.3f} | {100 * r['value']:.1f} % "
+            f"| {r['pond_r_u']:.3f} | {1e-6 * r['sub_steps']:.1f} | {r['energy_error']:.0e} "
+            f"| {r['core_seconds']:.1f} |"
+        )
+    return "\n".join(lines)
+
+
 def curve_table(lines_of):
     cells = sorted({p["cell_m"] for line in lines_of.values() for p in line}, reverse=True)
     head = "| basis / transfer | " + " | ".join(f"{c:g} m" for c in cells) + " |"
@@ -168,6 +185,7 @@ def main():
         ("pm4sand", pm4sand_table),
         ("step", step_table),
         ("dam/size", dam_table),
+        ("dam/implicit", implicit_table),
         ("dam/saving", dam_table),
     ):
         rows = [m for m in measurements if m["name"].startswith(f"fem/{mark}/")]

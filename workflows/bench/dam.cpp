@@ -100,6 +100,8 @@ struct Outcome {
   double liquefied = 0.0;  ///< mean depth of soil with r_u above 0.7 under the pond [m]
   double seconds = 0.0;    ///< of processor
   double elements = 0.0, steps = 0.0, sub_steps = 0.0;
+  double iterations = 0.0, most_iterations = 0.0, cut = 0.0;  ///< of implicit steps
+  double energy_error = 0.0;
 };
 
 Outcome shake(const SectionMesh& mesh, const FemConfig& config) {
@@ -111,6 +113,10 @@ Outcome shake(const SectionMesh& mesh, const FemConfig& config) {
   r.seconds = thread_seconds() - start;
   r.steps = static_cast<double>(facts.steps);
   r.sub_steps = facts.sub_steps;
+  r.iterations = static_cast<double>(facts.iterations);
+  r.most_iterations = facts.most_iterations;
+  r.cut = static_cast<double>(facts.cut_steps);
+  r.energy_error = facts.energy_error;
   r.elements = static_cast<double>(mesh.mesh.num_elements());
   const FemHistory history(folder / "history.h5");
   const FemFrame end = history.frame(history.times().size() - 1), &rest = history.gravity();
@@ -144,10 +150,20 @@ Measurement row(const std::string& name, const Outcome& r, const Outcome& refere
   m.value = std::abs(r.crest / reference.crest - 1.0);
   m.unit = "error of crest";
   m.better = Better::lower;
-  m.numbers = {{"elements", r.elements},     {"steps", r.steps},
-               {"sub_steps", r.sub_steps},   {"crest_m", r.crest},
-               {"pond_r_u", r.r_u},          {"pond_r_u_error", std::abs(r.r_u - reference.r_u)},
-               {"liquefied_m", r.liquefied}, {"core_seconds", r.seconds}};
+  m.numbers = {{"elements", r.elements},
+               {"steps", r.steps},
+               {"sub_steps", r.sub_steps},
+               {"crest_m", r.crest},
+               {"pond_r_u", r.r_u},
+               {"pond_r_u_error", std::abs(r.r_u - reference.r_u)},
+               {"liquefied_m", r.liquefied},
+               {"core_seconds", r.seconds},
+               {"energy_error", r.energy_error}};
+  if (r.iterations > 0.0) {
+    m.numbers["iterations"] = r.iterations;
+    m.numbers["most_iterations"] = r.most_iterations;
+    m.numbers["cut_steps"] = r.cut;
+  }
   return m;
 }
 
@@ -158,6 +174,15 @@ std::vector<Measurement> measure_dam() {
   for (const Size& s : kSizes)
     all.push_back(row(fmt::format("size/{:g}", s.size), shake(dam(s, kLeft), settings()), finest));
   all.push_back(row(fmt::format("size/{:g}", kReference.size), finest, finest));
+  const auto implicit = [&](const std::string& name, const Size& size, double step) {
+    FemConfig c = settings();
+    c.integration.scheme = IntegrationScheme::implicit;
+    c.integration.step = step;
+    all.push_back(row("implicit/" + name, shake(dam(size, kLeft), c), finest));
+  };
+  for (const Size& s : kSizes) implicit(fmt::format("{:g} m", s.size), s, 5e-3);
+  for (const double ms : {20.0, 10.0, 2.5, 1.25})
+    implicit(fmt::format("{:g} m, {:g} ms", kSavingsAt.size, ms), kSavingsAt, 1e-3 * ms);
 
   // Every saving alone, against the same elements with nothing saved.
   const SectionMesh mesh = dam(kSavingsAt, kLeft);
