@@ -194,8 +194,8 @@ HeightField read_height_field(const std::filesystem::path& path, const MapPlace&
   return f;
 }
 
-void check_covered(const HeightField& field, const std::vector<double>& x,
-                   const std::vector<double>& y, double time) {
+void check_covered(const HeightField& field, std::span<const double> x, std::span<const double> y,
+                   double time) {
   if (field.complete) return;
   for (std::size_t q = 0; q < x.size(); ++q) {
     if (!std::isnan(field.at(x[q], y[q]))) continue;

@@ -2,6 +2,7 @@
 #include <array>
 #include <filesystem>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,7 @@ struct HeightField {
 HeightField read_height_field(const std::filesystem::path& path, const MapPlace& place);
 
 /// Throws NumericsError if a point stands where there are no data.
-void check_covered(const HeightField& field, const std::vector<double>& x,
-                   const std::vector<double>& y, double time);
+void check_covered(const HeightField& field, std::span<const double> x, std::span<const double> y,
+                   double time);
 
 }  // namespace flowslide::mpm
