@@ -157,7 +157,9 @@ FinalState final_state(const ParticleSet& particles, const MpmHistory& flow,
            "flow stage to its end",
            flow.num_frames(), flow.samples().size());
   validate(p.dim == 2,
-           "the runout has {} dimensions (the report is for plane strain) use a section", p.dim);
+           "the runout has {} dimensions (the report draws sections) take the stage report.runout out "
+           "of the workflow, and `flowslide convert` mpm.h5 for ParaView, docs/guide/valley.md",
+           p.dim);
   std::vector<std::int64_t> ids = particles.id;
   std::sort(ids.begin(), ids.end());
   validate(ids == p.id,
