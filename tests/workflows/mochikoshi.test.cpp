@@ -2,6 +2,7 @@
 #include "fem/build_model.hpp"
 #include "fem/gravity.hpp"
 #include "section/mesh_section.hpp"
+#include "workflows/stages/fem_run.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -22,7 +23,7 @@ Rest at_rest(const std::vector<std::string>& changes) {
   const SectionMesh section = mesh_section(
       read_settings<SectionConfig>(stages.find("mesh")->find("with"), "stages.mesh.with"));
   const auto config =
-      read_settings<FemConfig>(stages.find("shake")->find("with"), "stages.shake.with");
+      read_settings<FemRunConfig>(stages.find("shake")->find("with"), "stages.shake.with");
   fem::Solver s = fem::make_solver(fem::build_model(section, config), {});
   solve_gravity(s, {config.gravity.permeability.value_or(kUnset), config.gravity.compacts});
   Rest r;

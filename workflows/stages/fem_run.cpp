@@ -1,38 +1,17 @@
+#include "workflows/stages/fem_run.hpp"
+
 #include "exporters/opensees_recorders.hpp"
 #include "fem/run.hpp"
 #include "model/history.hpp"
 #include "model/motion_file.hpp"
-#include "transfer/stop_config.hpp"
 #include "transfer/zone_record.hpp"
 #include "workflows/stages/stage_list.hpp"
 
 #include <memory>
-#include <optional>
 
 #include <nlohmann/json.hpp>
 
 namespace flowslide {
-namespace {
-
-struct FemRunConfig : FemConfig {
-  std::optional<StopAtTransferConfig> stop_at_transfer;
-  bool opensees_recorders = false;
-};
-
-}  // namespace
-
-template <>
-struct Schema<FemRunConfig> {
-  static constexpr std::string_view doc = Schema<FemConfig>::doc;
-  static void describe(FieldVisitor& v, FemRunConfig& c) {
-    Schema<FemConfig>::describe(v, c);
-    v.group("stop_at_transfer", c.stop_at_transfer, Schema<StopAtTransferConfig>::doc);
-    v.flag("opensees_recorders", c.opensees_recorders,
-           "write the folder recorders too: text files with the names, columns and units (m, s, "
-           "kPa) of scripts around OpenSees");
-  }
-};
-
 namespace {
 
 /// Follows the scalars of transfer.zone from state to state.
