@@ -19,14 +19,16 @@ function(add_module_tests name)
   list(TRANSFORM T_SOURCES PREPEND "${PROJECT_SOURCE_DIR}/tests/${name}/")
   add_executable(test_${name} ${T_SOURCES})
   target_link_libraries(test_${name} PRIVATE flowslide::${name} ${T_LINKS} flowslide_warnings flowslide_catch_main)
-  target_compile_definitions(test_${name} PRIVATE
-    FLOWSLIDE_FIXTURES="${PROJECT_SOURCE_DIR}/fixtures" FLOWSLIDE_SOURCE="${PROJECT_SOURCE_DIR}")
   catch_discover_tests(test_${name} TEST_PREFIX "${name}." PROPERTIES LABELS unit)
 endfunction()
 
 if(FLOWSLIDE_TESTS)
   find_package(Catch2 2.13 REQUIRED)
   include(Catch)
-  add_library(flowslide_catch_main STATIC "${PROJECT_SOURCE_DIR}/tests/support/catch_main.cpp")
+  add_library(flowslide_catch_main STATIC "${PROJECT_SOURCE_DIR}/tests/support/catch_main.cpp"
+              "${PROJECT_SOURCE_DIR}/tests/support/paths.cpp")
+  set_source_files_properties("${PROJECT_SOURCE_DIR}/tests/support/paths.cpp" PROPERTIES
+    COMPILE_DEFINITIONS FLOWSLIDE_SOURCE="${PROJECT_SOURCE_DIR}")
+  target_include_directories(flowslide_catch_main PUBLIC "${PROJECT_SOURCE_DIR}")
   target_link_libraries(flowslide_catch_main PUBLIC Catch2::Catch2)
 endif()

@@ -1,4 +1,5 @@
 #include "tests/support/scratch.hpp"
+#include "tests/support/paths.hpp"
 
 #include <sys/wait.h>
 
@@ -187,7 +188,7 @@ TEST_CASE("the committed workflows pass the check", "[cli]") {
   for (const char* name : {"mochikoshi", "mochikoshi-static", "mochikoshi-opensees"}) {
     CAPTURE(name);
     const Outcome o =
-        call(scratch, std::string("check " FLOWSLIDE_SOURCE "/workflows/") + name + ".yaml");
+        call(scratch, "check " + test::source("workflows/") + name + ".yaml");
     CHECK(o.code == 0);
     CHECK(o.err.empty());
   }
@@ -195,7 +196,7 @@ TEST_CASE("the committed workflows pass the check", "[cli]") {
 
 TEST_CASE("a point is driven from its file", "[cli]") {
   const Scratch scratch;
-  const std::string file = FLOWSLIDE_SOURCE "/docs/guide/cyclic-shear.yaml";
+  const std::string file = test::source("docs/guide/cyclic-shear.yaml");
   const std::string quick = " --set simple_shear.strain_step=2e-5 --set simple_shear.csr=0.2";
   const Outcome o = call(scratch, "point " + file + quick + " --csv shear.csv");
   CHECK(o.code == 0);
@@ -250,7 +251,7 @@ TEST_CASE("the committed manual pages are those of the program", "[cli]") {
     const std::string name = entry.path().filename().string();
     INFO("build/release/flowslide docs docs/reference writes " << name);
     CHECK(read_text_file(entry.path()) ==
-          read_text_file(std::filesystem::path(FLOWSLIDE_SOURCE) / "docs/reference" / name));
+          read_text_file(test::source("docs/reference/" + name)));
     ++pages;
   }
   CHECK(pages >= 5);

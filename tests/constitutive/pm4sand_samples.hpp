@@ -1,6 +1,7 @@
 #pragma once
 #include "constitutive/pm4sand.hpp"
 #include "constitutive/point_driver.hpp"
+#include "tests/support/paths.hpp"
 
 #include <fstream>
 #include <sstream>
@@ -64,7 +65,7 @@ inline PointUnderTest pm4sand_point(const PM4Sand::Params& p, const Stress<2>& s
 
 /// Rows of a fixture; an empty cell is NaN.
 inline std::vector<std::vector<double>> pm4sand_rows(const std::string& name) {
-  std::ifstream file(std::string(FLOWSLIDE_FIXTURES) + "/pm4sand/" + name);
+  std::ifstream file(test::fixture("pm4sand/" + name));
   std::vector<std::vector<double>> rows;
   std::string line, cell;
   std::getline(file, line);

@@ -1,4 +1,5 @@
 #include "fem/verify/scene.hpp"
+#include "tests/support/paths.hpp"
 
 #include <fstream>
 #include <map>
@@ -12,7 +13,7 @@ using namespace flowslide::fem;
 /// fixtures/opensees/dam-rio270: a dam of 1849 elements in OpenSees, whose state at rest is met.
 namespace {
 
-const std::string kFolder = FLOWSLIDE_FIXTURES "/opensees/dam-rio270/";
+const std::string kFolder = test::fixture("opensees/dam-rio270/");
 
 /// The section without its free-field columns.
 SectionMesh dam_section() {

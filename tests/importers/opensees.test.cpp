@@ -4,6 +4,7 @@
 #include "core/check.hpp"
 #include "importers/recorder_text.hpp"
 #include "small_model.hpp"
+#include "tests/support/paths.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -345,7 +346,7 @@ sigma_zz: {rule: elastic, nu: 0.3}
 
 TEST_CASE("the dam that fails is read as OpenSees wrote it", "[importers]") {
   const test::TempFolder folder;
-  const std::filesystem::path source = FLOWSLIDE_FIXTURES "/opensees/dam-rio270";
+  const std::filesystem::path source = test::fixture("opensees/dam-rio270");
   OpenSeesConfig config;
   config.mesh.nodes.path = source / "nodeinfo.dat";
   config.mesh.elements.path = source / "elementinfo.dat";

@@ -2,6 +2,7 @@
 
 #include "core/check.hpp"
 #include "files.hpp"
+#include "tests/support/paths.hpp"
 
 #include <cmath>
 #include <cstring>
@@ -117,7 +118,7 @@ TEST_CASE("a last line without newline is dropped and reported", "[importers]") 
 
 TEST_CASE("the tail of a killed run is read up to the torn row", "[importers]") {
   std::vector<std::string> notes;
-  const Rows rows = read_all(FLOWSLIDE_FIXTURES "/opensees/killed/displacement.out", &notes);
+  const Rows rows = read_all(test::fixture("opensees/killed/displacement.out"), &notes);
   CHECK(rows.size() == 318);
   CHECK(rows.back()[0] == 206.06);
   CHECK(notes ==

@@ -2,6 +2,7 @@
 #include "config/yaml.hpp"
 #include "section/section_config.hpp"
 #include "tests/model/scratch.hpp"
+#include "tests/support/paths.hpp"
 
 /// Settings of a section from YAML text.
 inline flowslide::SectionConfig section_of(const std::string& yaml) {
@@ -13,7 +14,7 @@ inline flowslide::SectionConfig section_of(const std::string& yaml) {
 
 /// The section of workflows/mochikoshi.yaml.
 inline flowslide::SectionConfig mochikoshi() {
-  const auto document = flowslide::load_yaml(FLOWSLIDE_SOURCE "/workflows/mochikoshi.yaml");
+  const auto document = flowslide::load_yaml(flowslide::test::source("workflows/mochikoshi.yaml"));
   const auto mesh = document.find("stages")->find("mesh")->find("with");
   return flowslide::read_settings<flowslide::SectionConfig>(mesh, "stages.mesh.with");
 }

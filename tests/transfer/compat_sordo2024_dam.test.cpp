@@ -2,6 +2,7 @@
 #include "importers/opensees.hpp"
 #include "tests/support/scratch.hpp"
 #include "transfer/compat_sordo2024.hpp"
+#include "tests/support/paths.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +22,7 @@ namespace {
 using Table = std::map<std::string, std::vector<double>>;
 
 Table read_table(const std::string& name) {
-  std::ifstream in(std::string(FLOWSLIDE_FIXTURES) + "/transfer/sordo2024/" + name);
+  std::ifstream in(test::fixture("transfer/sordo2024/" + name));
   Table table;
   std::vector<std::string> columns;
   for (std::string line; std::getline(in, line);) {
@@ -43,8 +44,7 @@ Table read_table(const std::string& name) {
 }
 
 void import_dam(const std::filesystem::path& out) {
-  const std::filesystem::path folder =
-      std::filesystem::path(FLOWSLIDE_FIXTURES) / "opensees" / "dam-rio270";
+  const std::filesystem::path folder = test::fixture("opensees/dam-rio270");
   OpenSeesConfig c;
   c.mesh.nodes = {folder / "nodeinfo.dat"};
   c.mesh.elements = {folder / "elementinfo.dat"};

@@ -1,5 +1,6 @@
 #include "importers/opensees.hpp"
 #include "transfer/map_state.hpp"
+#include "tests/support/paths.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -13,7 +14,7 @@ namespace {
 
 /// The dam of the fixture at rest.
 FemHistory import_at_rest() {
-  const std::filesystem::path folder = FLOWSLIDE_FIXTURES "/opensees/dam-rio270";
+  const std::filesystem::path folder = test::fixture("opensees/dam-rio270");
   const auto out =
       std::filesystem::temp_directory_path() / fmt::format("flowslide-map-dam-{}.h5", getpid());
   OpenSeesConfig c;

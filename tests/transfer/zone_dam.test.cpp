@@ -1,6 +1,7 @@
 #include "core/check.hpp"
 #include "importers/opensees.hpp"
 #include "transfer/zone.hpp"
+#include "tests/support/paths.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,7 @@ using namespace flowslide;
 namespace {
 
 std::filesystem::path import_dam() {
-  const std::filesystem::path folder = FLOWSLIDE_FIXTURES "/opensees/dam-rio270";
+  const std::filesystem::path folder = test::fixture("opensees/dam-rio270");
   const auto out =
       std::filesystem::temp_directory_path() / fmt::format("flowslide-dam-{}.h5", getpid());
   OpenSeesConfig c;

@@ -3,6 +3,7 @@
 #include "fem/gravity.hpp"
 #include "section/mesh_section.hpp"
 #include "workflows/stages/fem_run.hpp"
+#include "tests/support/paths.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -19,7 +20,7 @@ struct Rest {
 /// The dam of workflows/mochikoshi.yaml under its own weight.
 Rest at_rest(const std::vector<std::string>& changes) {
   const YamlNode stages =
-      *load_yaml(FLOWSLIDE_SOURCE "/workflows/mochikoshi.yaml", changes).find("stages");
+      *load_yaml(test::source("workflows/mochikoshi.yaml"), changes).find("stages");
   const SectionMesh section = mesh_section(
       read_settings<SectionConfig>(stages.find("mesh")->find("with"), "stages.mesh.with"));
   const auto config =
