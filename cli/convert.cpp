@@ -1,6 +1,7 @@
 #include "cli/command.hpp"
 #include "config/yaml.hpp"
 #include "core/check.hpp"
+#include "core/files.hpp"
 #include "exporters/opensees_recorders.hpp"
 #include "importers/mesh_import.hpp"
 #include "model/field_store.hpp"
@@ -173,6 +174,7 @@ const std::vector<Conversion>& conversions() {
 std::string kind_of(const fs::path& in) {
   if (!fs::exists(in)) throw FileError(fmt::format("{}: there is no such file.", in.string()));
   if (fs::is_directory(in)) return "folder";
+  expect_regular_file(in);
   std::array<char, 8> head{};
   std::ifstream(in, std::ios::binary).read(head.data(), head.size());
   constexpr std::string_view kHdf5 = "\x89HDF\r\n\x1a\n";

@@ -1,5 +1,7 @@
 #include "config/yaml_data.hpp"
 
+#include "core/files.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -12,7 +14,8 @@
 namespace flowslide::yaml {
 namespace {
 
-constexpr std::size_t kMaxBytes = 16u << 20u;
+/// The tree of a text takes about 60 times its size in memory, and 4 s for each MiB.
+constexpr std::size_t kMaxBytes = 1u << 20u;
 
 /// Bytes of the UTF-8 character at the start of `s`; 0 if there is none (RFC 3629).
 std::size_t utf8_length(std::string_view s) {
@@ -70,6 +73,7 @@ std::string read_text(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path, ignored))
     throw FileError(fmt::format("{}: is a folder (a YAML file is expected) name the file in it",
                                 path.string()));
+  if (std::filesystem::exists(path, ignored)) expect_regular_file(path);
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   if (!in)

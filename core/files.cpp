@@ -83,18 +83,25 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::write(const void* bytes, std::size_t size) {
-  buffer_.append(static_cast<const char*>(bytes), size);
-  if (buffer_.size() >= kBufferBytes) flush();
+  if (buffer_.size() + size >= kBufferBytes) flush();
+  if (size >= kBufferBytes)
+    put(static_cast<const char*>(bytes), size);
+  else
+    buffer_.append(static_cast<const char*>(bytes), size);
 }
 
 void OutputFile::flush() {
-  for (std::size_t done = 0; done < buffer_.size();) {
-    const ssize_t n = ::write(file_, buffer_.data() + done, buffer_.size() - done);
+  put(buffer_.data(), buffer_.size());
+  buffer_.clear();
+}
+
+void OutputFile::put(const char* bytes, std::size_t size) {
+  for (std::size_t done = 0; done < size;) {
+    const ssize_t n = ::write(file_, bytes + done, size - done);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) fail(path_, "cannot be written; is the disk full?", n < 0 ? errno : ENOSPC);
     done += static_cast<std::size_t>(n);
   }
-  buffer_.clear();
 }
 
 void OutputFile::commit() {

@@ -33,6 +33,7 @@ class OutputFile {
   std::string buffer_;
   int file_ = -1;
   void flush();
+  void put(const char* bytes, std::size_t size);
 };
 
 /// OutputFile for bytes that are there already.

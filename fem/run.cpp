@@ -140,7 +140,10 @@ FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const F
   s.dt = 1e-12;
   RunState run{.since = kModuliInterval, .smallest_step = end};
   const std::string origin = fingerprint(section, motion, config, rule.settings);
-  if (std::filesystem::exists(paths.checkpoint)) read_checkpoint(paths.checkpoint, origin, s, run);
+  if (find_checkpoint(paths.checkpoint)) {
+    read_checkpoint(paths.checkpoint, origin, s, run);
+    check_progress(paths.checkpoint, s, run, end, config.output_interval);
+  }
   ResumableHistoryWriter history(
       paths.history, section.mesh,
       {"flowslide fem.run", "mean of xx and yy for PM4Sand, elastic plane strain for other laws",
@@ -192,7 +195,8 @@ FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const F
     progress.report(target / end, fmt::format("{:.2f} s, step {:.3g} s", target, s.dt));
   }
   history.finish();
-  std::filesystem::remove(paths.checkpoint);
+  remove_checkpoint(paths.checkpoint);
+  history.remove_parts();
   facts.seconds = seconds_before + seconds_since(start);
   facts.end_time = s.state.time;
   facts.steps = s.state.step;

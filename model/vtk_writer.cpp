@@ -1,9 +1,10 @@
 #include "model/vtk_writer.hpp"
 
 #include "core/check.hpp"
+#include "core/files.hpp"
 
 #include <array>
-#include <fstream>
+#include <new>
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -95,29 +96,19 @@ void add_particles(vtkPolyData* data, const std::vector<std::array<double, 3>>& 
   data->GetFieldData()->AddArray(names);
 }
 
-std::filesystem::path partial_name(std::filesystem::path path) { return path += ".partial"; }
-
-void complete(const std::filesystem::path& path, bool written) {
-  const std::filesystem::path partial = partial_name(path);
-  std::error_code error;
-  if (written) std::filesystem::rename(partial, path, error);
-  if (!written || error)
-    throw FileError(fmt::format("'{}' cannot be written (is the disk full, does the folder exist?)",
-                                path.string()));
-}
-
+/// Through memory: VTK does not look at the result of closing its files.
 template <class Writer, class Data>
 void write(const std::filesystem::path& path, Data* data) {
   // VTK would print its own account of a failure besides the exception's.
   vtkObject::GlobalWarningDisplayOff();
   vtkNew<Writer> writer;
-  writer->SetFileName(partial_name(path).c_str());
+  writer->WriteToOutputStringOn();
   writer->SetInputData(data);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
   writer->SetCompressorTypeToZLib();
-  const bool written = writer->Write() == 1 && writer->GetErrorCode() == 0;
-  complete(path, written);
+  if (writer->Write() != 1 || writer->GetErrorCode() != 0) throw std::bad_alloc();
+  write_file(path, writer->GetOutputString());
 }
 
 std::string labelled(std::string_view name, std::string_view unit) {
@@ -204,10 +195,10 @@ void write_vtu(const std::filesystem::path& path, const QuadMesh& mesh, const Fe
 
 void write_pvd(const std::filesystem::path& path,
                std::span<const std::pair<double, std::filesystem::path>> files) {
-  std::ofstream out(partial_name(path));
-  out << "<?xml version=\"1.0\"?>\n"
-         "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
-         "  <Collection>\n";
+  std::string text =
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+      "  <Collection>\n";
   const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
   for (const auto& [time, file] : files) {
     std::string name;
@@ -221,11 +212,9 @@ void write_pvd(const std::filesystem::path& path,
       else
         name += c;
     }
-    out << fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", time, name);
+    text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", time, name);
   }
-  out << "  </Collection>\n</VTKFile>\n";
-  out.close();
-  complete(path, !out.fail());
+  write_file(path, text + "  </Collection>\n</VTKFile>\n");
 }
 
 }  // namespace flowslide

@@ -1,6 +1,7 @@
 #include "motion/record_text.hpp"
 
 #include "core/check.hpp"
+#include "core/files.hpp"
 #include "core/units.hpp"
 
 #include <algorithm>
@@ -30,6 +31,7 @@ std::string read_bytes(const fs::path& path) {
     throw FileError(fmt::format("{}: no such file", path.string()));
   if (status.type() == fs::file_type::directory)
     throw FileError(fmt::format("{}: is a folder (a file is expected)", path.string()));
+  expect_regular_file(path);
   const std::unique_ptr<gzFile_s, decltype(&gzclose)> file(gzopen(path.c_str(), "rb"), &gzclose);
   if (!file)
     throw FileError(fmt::format("{}: cannot be opened ({})", path.string(), std::strerror(errno)));

@@ -1,6 +1,7 @@
 #include "mpm/checkpoint.hpp"
 
 #include "model/checkpoint_file.hpp"
+#include "mpm/checkpoint_check.hpp"
 
 namespace flowslide::mpm {
 namespace {
@@ -62,13 +63,21 @@ void read_checkpoint(const std::filesystem::path& path, Simulation<Dim>& s, RunS
   CheckpointReader in(path, kFields);
   transfer_fields(in, s, run);
   in.finish();
-  if (s.points.size() + s.gone.size() != points) in.refuse("it has another number of points");
+  if (const std::string misfit = find_misfit(s, run, points); !misfit.empty()) in.refuse(misfit);
+}
+
+template <int Dim>
+void check_walls(const std::filesystem::path& path, const Simulation<Dim>& s) {
+  if (s.contact.impulse.size() != s.contact.walls.size())
+    refuse_checkpoint(path, "it has impulses of other walls than this run");
 }
 
 template void write_checkpoint<2>(const std::filesystem::path&, const Simulation<2>&,
                                   const RunState&);
 template void write_checkpoint<3>(const std::filesystem::path&, const Simulation<3>&,
                                   const RunState&);
+template void check_walls<2>(const std::filesystem::path&, const Simulation<2>&);
+template void check_walls<3>(const std::filesystem::path&, const Simulation<3>&);
 template void read_checkpoint<2>(const std::filesystem::path&, Simulation<2>&, RunState&);
 template void read_checkpoint<3>(const std::filesystem::path&, Simulation<3>&, RunState&);
 

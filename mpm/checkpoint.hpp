@@ -27,8 +27,12 @@ void write_checkpoint(const std::filesystem::path& path, const Simulation<Dim>& 
                       const RunState& run);
 
 /// Fills what a run changes; settings, materials and boundaries stay as they are. Throws FileError
-/// if the file is damaged or belongs to another number of points.
+/// if the file is damaged or holds what this run cannot have.
 template <int Dim>
 void read_checkpoint(const std::filesystem::path& path, Simulation<Dim>& s, RunState& run);
+
+/// The rest of that check, which needs the walls that prepare() places. Throws FileError.
+template <int Dim>
+void check_walls(const std::filesystem::path& path, const Simulation<Dim>& s);
 
 }  // namespace flowslide::mpm

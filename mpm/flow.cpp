@@ -63,9 +63,10 @@ FlowFacts run_in(const ParticleSet& particles, const FlowConfig& config, const F
   index_by_id(s, particles);
   mpm::StepScratch<Dim> scratch(std::max(1, threads));
   mpm::RunState run;
-  const bool resume = std::filesystem::exists(paths.checkpoint);
+  const bool resume = find_checkpoint(paths.checkpoint);
   if (resume) mpm::read_checkpoint(paths.checkpoint, s, run);
   mpm::prepare(s, scratch, !resume);
+  if (resume) mpm::check_walls(paths.checkpoint, s);
   if (!resume) {
     const mpm::PointSums<Dim> start = mpm::sum_points(s);
     run.mass_start = start.mass;
@@ -82,23 +83,19 @@ FlowFacts run_in(const ParticleSet& particles, const FlowConfig& config, const F
   std::vector<bool> counts;
   for (const MaterialSpec& m : particles.materials) counts.push_back(m.counts_for_runout);
 
-  std::optional<MpmHistoryWriter> history;
-  if (resume)
-    history.emplace(paths.history, run.frames, run.samples);
-  else
-    history.emplace(paths.history, particles);
+  MpmHistoryWriter history(paths.history, particles, run.frames, run.samples);
 
   FlowFacts facts;
   MpmFrame frame;
   std::vector<double> front_scratch;
   const auto store = [&] {
     mpm::store_frame(s, frame);
-    history->append(frame);
+    history.append(frame);
     ++run.frames;
     run.next_frame += config.frame_interval;
   };
   const auto checkpoint = [&] {
-    history->flush();
+    history.flush();
     mpm::write_checkpoint(paths.checkpoint, s, run);
   };
   if (!resume) store();
@@ -115,7 +112,7 @@ FlowFacts run_in(const ParticleSet& particles, const FlowConfig& config, const F
     if (s.time >= run.next_sample || done) {
       if (mpm::any_beyond(s.outlet, s.points)) mpm::prepare(s, scratch, true);
       facts.last = mpm::sample(s, reference, counts, front_scratch);
-      history->append(facts.last);
+      history.append(facts.last);
       ++run.samples;
       while (run.next_sample <= s.time) run.next_sample += config.sample_interval;
       run.peak_kinetic = std::max(run.peak_kinetic, facts.last.kinetic);
@@ -142,8 +139,9 @@ FlowFacts run_in(const ParticleSet& particles, const FlowConfig& config, const F
     }
   }
   facts.step_seconds = seconds_since(start);
-  history->finish();
-  std::filesystem::remove(paths.checkpoint);
+  history.finish();
+  remove_checkpoint(paths.checkpoint);
+  history.remove_parts();
   facts.end_time = s.time;
   facts.steps = s.step;
   facts.point_updates = static_cast<double>(run.updates);

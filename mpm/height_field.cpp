@@ -1,6 +1,7 @@
 #include "mpm/height_field.hpp"
 
 #include "core/check.hpp"
+#include "core/files.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -34,17 +35,22 @@ Cell find_cell(const HeightField& f, double x, double y) {
 class GridFile {
  public:
   explicit GridFile(const std::filesystem::path& path)
-      : name_(path.filename().string()), in_(path) {
-    if (!in_ || std::filesystem::is_directory(path))
+      : path_(path), name_(path.filename().string()) {
+    expect_regular_file(path);
+    in_.open(path);
+    std::error_code error;
+    bytes_ = std::filesystem::file_size(path, error);
+    if (!in_ || error)
       throw FileError(fmt::format("{}: cannot be opened (no such file, or no right to read it)",
                                   path.string()));
   }
   /// Words of the next line that has any; false at the end of the file.
   bool next() {
     words_.clear();
-    while (words_.empty() && std::getline(in_, text_)) {
+    while (words_.empty() && in_.getline(line_text_.data(), std::ssize(line_text_))) {
       ++line_;
-      const std::string_view text = text_;
+      // The end of the line counts, but the last line may have none.
+      const std::string_view text(line_text_.data(), in_.gcount() - (in_.eof() ? 0 : 1));
       for (std::size_t at = 0; at < text.size();) {
         const std::size_t first = text.find_first_not_of(" \t\r", at);
         if (first == std::string_view::npos) break;
@@ -52,8 +58,15 @@ class GridFile {
         words_.push_back(text.substr(first, at - first));
       }
     }
+    if (in_.bad()) throw FileError(fmt::format("{}: cannot be read", path_.string()));
+    validate(in_.gcount() + 1 < std::ssize(line_text_),
+             "{}:{}: the line has more than {} MiB (no row of a terrain has so many heights) is "
+             "this a text file?",
+             name_, line_ + 1, kLongestLine >> 20u);
     return !words_.empty();
   }
+  /// Numbers that a file of this size can hold: each takes a digit and a blank.
+  [[nodiscard]] double most_numbers() const { return 0.5 * static_cast<double>(bytes_ + 1); }
   [[nodiscard]] const std::vector<std::string_view>& words() const { return words_; }
   [[nodiscard]] int line() const { return line_; }
   [[nodiscard]] std::string place() const { return fmt::format("{}:{}", name_, line_); }
@@ -69,9 +82,12 @@ class GridFile {
   }
 
  private:
+  std::filesystem::path path_;
   std::string name_;
   std::ifstream in_;
-  std::string text_;
+  std::uintmax_t bytes_ = 0;
+  static constexpr std::size_t kLongestLine = std::size_t{4} << 20;  ///< 100000 heights have 2.5
+  std::vector<char> line_text_ = std::vector<char>(kLongestLine);
   std::vector<std::string_view> words_;
   int line_ = 0;
 };
@@ -125,6 +141,10 @@ Header read_header(GridFile& file) {
              file.name(), columns, rows, kFewest, kMost);
   h.columns = static_cast<int>(columns);
   h.rows = static_cast<int>(rows);
+  validate(columns * rows <= file.most_numbers(),
+           "{}: the header says {:g} x {:g} heights (the file is too short for so many) it was cut, "
+           "or the header is wrong; copy or export it again",
+           file.name(), columns, rows);
   h.spacing = need("cellsize");
   validate(h.spacing > 0.0, "{}: cellsize is {:g} (it is a length) check the header", file.name(),
            h.spacing);

@@ -1,8 +1,8 @@
 #include "report/figures.hpp"
 
 #include "core/check.hpp"
+#include "core/files.hpp"
 #include "plot_scripts.hpp"
-#include "report/text_file.hpp"
 
 #include <cerrno>
 #include <fcntl.h>

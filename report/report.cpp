@@ -1,11 +1,11 @@
 #include "report/report.hpp"
 
+#include "core/files.hpp"
 #include "report/figures.hpp"
 #include "report/markdown.hpp"
 #include "report/paraview.hpp"
 #include "report/plot_data.hpp"
 #include "report/tables.hpp"
-#include "report/text_file.hpp"
 
 #include <system_error>
 

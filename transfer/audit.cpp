@@ -1,11 +1,11 @@
 #include "transfer/audit.hpp"
 
+#include "core/files.hpp"
 #include "model/shape_quad.hpp"
 #include "transfer/gauss_rule.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include <nlohmann/json.hpp>
 
@@ -218,22 +218,7 @@ void write_audit(const std::filesystem::path& path, const TransferAudit& audit) 
                       {"base_displacement_m", audit.base_displacement},
                       {"base_velocity_m_per_s", audit.base_velocity},
                       {"notes", audit.notes}};
-
-  std::filesystem::path partial = path;
-  partial += ".partial";
-  {
-    std::ofstream file(partial, std::ios::binary);
-    file << document.dump(2) << '\n';
-    file.flush();
-    if (!file)
-      throw FileError(
-          fmt::format("{}: cannot be written (no permission or no space)", partial.string()));
-  }
-  std::error_code error;
-  std::filesystem::rename(partial, path, error);
-  if (error)
-    throw FileError(fmt::format("{}: cannot be renamed to {} ({})", partial.string(),
-                                path.filename().string(), error.message()));
+  write_file(path, document.dump(2) + '\n');
 }
 
 }  // namespace flowslide

@@ -2,6 +2,8 @@
 
 #include "tests/config/sample.hpp"
 
+#include <sys/stat.h>
+
 #include <catch2/catch.hpp>
 
 using namespace flowslide;
@@ -49,6 +51,9 @@ TEST_CASE("a file that cannot be read is a FileError", "[config]") {
                     "no-such-file.yaml: cannot be opened (No such file or directory)");
   const YamlFile file("a: 1\n");
   CHECK_THROWS_AS(load_yaml(file.folder()), FileError);
+  CHECK_THROWS_AS(load_yaml("/dev/zero"), FileError);
+  REQUIRE(::mkfifo((file.folder() / "pipe").c_str(), 0600) == 0);
+  CHECK_THROWS_WITH(load_yaml(file.folder() / "pipe"), Catch::Contains("a pipe or a device"));
 }
 
 TEST_CASE("text that is no UTF-8 YAML is refused with its place", "[config]") {
@@ -66,7 +71,7 @@ TEST_CASE("text that is no UTF-8 YAML is refused with its place", "[config]") {
   CHECK(load_problem("a: \xED\xA0\x80\n").find("byte 0xed is not UTF-8") != std::string::npos);
   CHECK(load_problem("a: 1\rb: 2\n").find("case.yaml:1:5: carriage return") == 0);
   CHECK(load_problem("a: \x1b[0m\n").find("case.yaml:1:4: control character 0x1b") == 0);
-  CHECK(load_problem(std::string((16u << 20u) + 1, '#')).find("is larger than 16 MiB") !=
+  CHECK(load_problem(std::string((1u << 20u) + 1, '#')).find("is larger than 1 MiB") !=
         std::string::npos);
 }
 

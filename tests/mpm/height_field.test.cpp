@@ -6,6 +6,8 @@
 
 #include <fstream>
 
+#include <sys/stat.h>
+
 #include <catch2/catch.hpp>
 
 using namespace flowslide;
@@ -210,4 +212,18 @@ TEST_CASE("A lump of soil swings in a bowl, or comes to rest in it", "[mpm]") {
   // tan of the steepest slope under the lump is 0.08: it sticks at 0.15.
   CHECK(middle_after(0.15, 0.25 * period, speed) == Approx(start).margin(0.01));
   CHECK(std::abs(speed) < 0.01);
+}
+
+TEST_CASE("A terrain that is no file, or that cannot be in its file, is refused at once", "[mpm]") {
+  const Scratch folder;
+  REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  CHECK_THROWS_AS(read_height_field(folder / "pipe", {}), FileError);
+  CHECK_THROWS_AS(read_height_field("/dev/zero", {}), FileError);
+  const auto error = [&](const std::string& text) {
+    return input_error([&] { read_height_field(folder.write("valley.asc", text), {}); });
+  };
+  CHECK_THAT(error("ncols 100000\nnrows 100000\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3\n"),
+             Contains("too short for so many"));
+  CHECK_THAT(error("ncols 2\n" + std::string(5u << 20u, '1')),
+             Contains("valley.asc:2") && Contains("more than 4 MiB"));
 }
