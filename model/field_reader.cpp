@@ -172,7 +172,8 @@ struct FieldReader::Impl {
       hsize_t expected = 1, found = 0;
       for (std::size_t d = 0; d < extent.size(); ++d)
         expected *= (extent[d] + chunk[d] - 1) / std::max<hsize_t>(chunk[d], 1);
-      if (H5Dget_num_chunks(dataset, H5S_ALL, &found) < 0 || found != expected)
+      const Hdf5Handle space(H5Dget_space(dataset), &H5Sclose);
+      if (H5Dget_num_chunks(dataset, space, &found) < 0 || found != expected)
         throw_file_error(path, name,
                          fmt::format("has {} of {} pieces (the disk was full when it was written); "
                                      "make the file again",

@@ -9,6 +9,7 @@
 namespace flowslide::mpm {
 namespace {
 
+constexpr double kLargestDrift = 0.95;  ///< [cells]; advance() bins points anew beyond it
 constexpr std::int32_t kFarthestBlock = (1 << 19) - 2;  ///< as bin_points numbers them
 
 bool finite(const auto&... x) { return (std::isfinite(x) && ...); }

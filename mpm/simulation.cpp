@@ -173,7 +173,7 @@ void prepare(Simulation<Dim>& s, StepScratch<Dim>& scratch, bool rebin) {
 
 template <int Dim>
 void advance(Simulation<Dim>& s, StepScratch<Dim>& scratch) {
-  if (s.drift > kLargestDrift * s.grid.h || (s.sleep.on() && s.time >= s.sleep.next_look))
+  if (s.drift > 0.95 * s.grid.h || (s.sleep.on() && s.time >= s.sleep.next_look))
     prepare(s, scratch, true);
   s.dt = stable_step(s);
   visit_basis(s.settings.basis, [&]<class Basis>(Basis) { step<Dim, Basis>(s, scratch); });

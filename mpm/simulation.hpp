@@ -14,9 +14,6 @@
 /// The state of a run and one time step.
 namespace flowslide::mpm {
 
-/// Points that may have moved farther are binned anew [cells].
-inline constexpr double kLargestDrift = 0.95;
-
 struct StepSettings {
   BasisKind basis = BasisKind::quadratic;
   Transfer transfer = Transfer::apic;
