@@ -12,6 +12,9 @@ namespace {
 constexpr double kLargestDrift = 0.95;  ///< [cells]; advance() bins points anew beyond it
 constexpr std::int32_t kFarthestBlock = (1 << 19) - 2;  ///< as bin_points numbers them
 
+/// Without the magnitude, which the lowest of all numbers has not.
+bool within(std::int32_t x, std::int32_t farthest) { return x >= -farthest && x <= farthest; }
+
 bool finite(const auto&... x) { return (std::isfinite(x) && ...); }
 
 template <int Dim>
@@ -63,7 +66,7 @@ bool sound_tiles(const Simulation<Dim>& s) {
   for (std::size_t t = 0; t < tiles.size(); ++t) {
     const Tile<Dim>& tile = tiles[t];
     for (const std::int32_t c : tile.block)
-      if (std::abs(c) > kFarthestBlock) return false;
+      if (!within(c, kFarthestBlock)) return false;
     if (tile.first != at || tile.last <= at || tile.last > std::ssize(s.points.mass)) return false;
     if (run_first[t + 1] < run_first[t] || run_first[t + 1] > std::ssize(runs)) return false;
     for (std::int32_t r = run_first[t]; r < run_first[t + 1]; ++r) {
@@ -107,7 +110,7 @@ bool sound_dashpots(const Absorbing<Dim>& absorbing) {
     bool sound = d.plane >= 0 && d.plane < 2 * Dim && std::isfinite(absorbing.plane(d.plane)) &&
                  finite(d.area, d.area_start, d.normal, d.shear);
     for (const std::int32_t node : d.line)
-      sound = sound && std::abs(node) <= kBlockWidth<Dim> * kFarthestBlock;
+      sound = sound && within(node, kBlockWidth<Dim> * kFarthestBlock);
     for (const double force : d.support) sound = sound && std::isfinite(force);
     return sound;
   });

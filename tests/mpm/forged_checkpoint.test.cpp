@@ -127,7 +127,7 @@ TEST_CASE("A checkpoint whose numbers cannot be those of a run is refused", "[mp
   tile([](auto& t) { t.tiles[1].first = -4; });
   tile([](auto& t) { t.tiles.back().last = 1 << 30; });
   tile([](auto& t) { t.tiles[0].block[0] = std::numeric_limits<std::int32_t>::min(); });
-  tile([](auto& t) { t.tiles[0].block[0] += 1; });
+  tile([](auto& t) { t.tiles[0].block[0] += 2; });
   tile([](auto& t) { t.tiles.pop_back(); });
   tile([](auto& t) { t.run_first[1] = 1 << 30; });
   tile([](auto& t) { t.run_first.pop_back(); });
