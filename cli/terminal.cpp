@@ -47,6 +47,7 @@ RunEvents Display::events() {
     progress(stage, fraction, text);
   };
   events.done = [this](std::string_view stage, double seconds) { done(stage, seconds); };
+  events.notice = [this](std::string_view text) { notice(text); };
   return events;
 }
 
@@ -92,6 +93,11 @@ void Display::done(std::string_view stage, double seconds) {
   bar_on_line_ = false;
   fmt::print("{:<{}} done in {:.1f} s\n", stage, kNameWidth, seconds);
   std::fflush(stdout);
+}
+
+void Display::notice(std::string_view text) {
+  close();
+  fmt::print("note: {}\n", text);
 }
 
 void Display::close() {

@@ -115,20 +115,27 @@ void write_file(const fs::path& path, std::string_view bytes) {
 
 void expect_regular_file(const fs::path& path) { open_regular(path); }
 
-std::string read_file(const fs::path& path, std::uint64_t limit) {
+void read_blocks(const fs::path& path, const std::function<void(std::string_view)>& take) {
   const Descriptor file = open_regular(path);
-  std::string bytes;
   std::vector<char> block(kBufferBytes);
   for (;;) {
     const ssize_t n = ::read(file.get(), block.data(), block.size());
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) fail(path, "cannot be read", errno);
-    if (n == 0) return bytes;
-    bytes.append(block.data(), static_cast<std::size_t>(n));
+    if (n == 0) return;
+    take({block.data(), static_cast<std::size_t>(n)});
+  }
+}
+
+std::string read_file(const fs::path& path, std::uint64_t limit) {
+  std::string bytes;
+  read_blocks(path, [&](std::string_view block) {
+    bytes += block;
     if (bytes.size() > limit)
       throw FileError(fmt::format("'{}' has more than {} bytes (too many for what it should be)",
                                   path.string(), limit));
-  }
+  });
+  return bytes;
 }
 
 void sync_path(const fs::path& path) {

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -37,6 +38,11 @@ class OutputFile {
 
 /// OutputFile for bytes that are there already.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// Hands the content of a regular file to `take`, block by block, whatever its size. FileError for
+/// anything else; what `take` throws goes through.
+void read_blocks(const std::filesystem::path& path,
+                 const std::function<void(std::string_view block)>& take);
 
 /// Whole content of a regular file. FileError for anything else (folder, pipe, device: they may
 /// have no end) and for more than `limit` bytes.
