@@ -34,8 +34,8 @@ ReportFacts write_report(const ReportInputs& in, const ReportConfig& config,
   write_plot_data(out / "data", in.history, in.zone, in.flow, end, facts, config);
   DrawnFigures drawn;
   if (config.figures) {
-    // Drawing takes seconds; a million points take a minute or two on a machine of ten years ago.
-    const double seconds = 120.0 + 1e-3 * static_cast<double>(in.particles.size());
+    // Drawing takes seconds on a machine that has nothing else to do.
+    const double seconds = 300.0 + 1e-3 * static_cast<double>(in.particles.size());
     drawn = draw_figures(out, config.python, {progress, seconds});
     if (!drawn.problem.empty()) facts.warnings.push_back(drawn.problem);
   }

@@ -149,6 +149,7 @@ TEST_CASE("a small import runs, is then up to date, and can be inspected", "[cli
   SECTION("a command that is refused takes nothing away") {
     const std::string before = read_text_file(scratch / "out/result.json");
     CHECK(run(scratch, shake() + "  z: {uses: nothing}\n").code == 2);
+    scratch.write("w.yaml", "schema: 1\nname: w\nstages:\n" + shake());
     CHECK(call(scratch, "run w.yaml --out out --set stages.shake.with.untis=1").code == 2);
     CHECK(call(scratch, "run w.yaml --out out --redo shaek").code == 2);
     CHECK_THAT(call(scratch, "run w.yaml --out out --redo shaek").err,

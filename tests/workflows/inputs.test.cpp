@@ -29,20 +29,26 @@ int exit_code(const std::function<void()>& call) {
 }  // namespace
 
 TEST_CASE("a result of an input that changed meanwhile is not kept", "[workflows]") {
+  enum class How { changed, restored, restored_with_time };
+  enum class When { before, during, before_failure };
+  const How how = GENERATE(How::changed, How::restored, How::restored_with_time);
+  const When when = GENERATE(When::before, When::during, When::before_failure);
   sample::RunBench bench;
   const fs::path note = bench.scratch / "note.txt";
-  bench.before_stage = [&](std::string_view stage) {
-    if (stage != "one") return;
+  const auto change = [&] {
     const auto time = fs::last_write_time(note);
     wait_a_tick();
     bench.scratch.write("note.txt", "other note");
-    SECTION("changed") {}
-    SECTION("changed and restored") { bench.scratch.write("note.txt", "first note"); }
-    SECTION("restored with its time") {
-      bench.scratch.write("note.txt", "first note");
-      fs::last_write_time(note, time);
-    }
+    if (how != How::changed) bench.scratch.write("note.txt", "first note");
+    if (how == How::restored_with_time) fs::last_write_time(note, time);
   };
+  bench.before_stage = [&](std::string_view stage) {
+    if (stage == "one" && when == When::before) change();
+  };
+  bench.during("one", [&] {
+    if (when != When::before) change();
+    if (when == When::before_failure) throw InputError("the note cannot be read");
+  });
   try {
     bench.run();
     FAIL("the change was not noticed");
@@ -52,20 +58,20 @@ TEST_CASE("a result of an input that changed meanwhile is not kept", "[workflows
   }
   CHECK_FALSE(fs::exists(bench.out / "result.json"));
   bench.before_stage = [](std::string_view) {};
+  bench.during("", [] {});
   bench.run();
   CHECK(bench.ran == std::vector<std::string>{"one", "two", "sum"});
 }
 
 TEST_CASE("an input from another stage is looked at again as well", "[workflows]") {
   sample::RunBench bench;
-  bench.before_stage = [&](std::string_view stage) {
-    if (stage != "sum") return;
+  bench.during("sum", [&] {
     wait_a_tick();
     for (const auto& entry : fs::recursive_directory_iterator(bench.out / "stages/one"))
       if (entry.path().filename() == "number.txt") std::ofstream(entry.path()) << "7\n";
-  };
+  });
   CHECK_THROWS_WITH(bench.run(), Contains("sum: ") && Contains("number.txt"));
-  bench.before_stage = [](std::string_view) {};
+  bench.during("", [] {});
   bench.run();
   CHECK(bench.result()["sum"] == 3.0);
 }

@@ -21,6 +21,7 @@ struct RunBench {
   std::map<std::string, std::string> why;  ///< of the last run, by stage
   std::vector<std::string> ran, notices;   ///< of the last run
   std::function<void(std::string_view stage)> before_stage = [](std::string_view) {};
+  std::function<void(const std::string& stage)> meanwhile = [](const std::string&) {};
   std::vector<std::string> redo;
 
   Workflow load(const std::vector<std::string>& set = {}) {
@@ -32,6 +33,16 @@ struct RunBench {
                       "  two: {uses: sample.number, with: {value: 2}}\n"
                       "  sum: {uses: sample.sum, in: {a: one.number, b: two.number}}\n"),
         set, types);
+  }
+  Workflow load_watched(const std::vector<std::string>& set) {
+    Workflow workflow = load(set);
+    for (WorkflowStage& stage : workflow.stages)
+      stage.prepared.run = [this, name = stage.name, run = stage.prepared.run](
+                               const RunContext& context, const PortPaths& paths) {
+        meanwhile(name);
+        return run(context, paths);
+      };
+    return workflow;
   }
   void run(const std::vector<std::string>& set = {}) {
     why.clear();
@@ -45,7 +56,13 @@ struct RunBench {
       before_stage(stage);
     };
     events.notice = [&](std::string_view text) { notices.emplace_back(text); };
-    run_workflow(load(set), {.folder = out, .redo = redo}, events);
+    run_workflow(load_watched(set), {.folder = out, .redo = redo}, events);
+  }
+  /// Lets `act` happen when a stage has begun, before it reads anything.
+  void during(const std::string& stage, std::function<void()> act) {
+    meanwhile = [=, this](const std::string& name) {
+      if (name == stage) act();
+    };
   }
   [[nodiscard]] nlohmann::json result() const {
     return nlohmann::json::parse(read_text_file(out / "result.json"));

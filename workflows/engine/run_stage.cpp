@@ -62,28 +62,27 @@ double prepare_folder(const fs::path& work, const fs::path& run_folder, bool res
 /// input that has changed is not kept, whatever else went wrong.
 StageResult call(const WorkflowStage& stage, const RunContext& context, const StageInputs& inputs,
                  const PortPaths& paths, Stopwatch& watch) {
-  for (const HashedFile& file : stage.prepared.files) expect_same_state(file);
-  for (const HashedFile& file : inputs.files) expect_same_state(file);
-  const auto look_again = [&] {
+  const auto look = [&](void (*expect)(const HashedFile&)) {
     try {
-      for (const HashedFile& file : stage.prepared.files) expect_unchanged(file);
-      for (const HashedFile& file : inputs.files) expect_unchanged(file);
+      for (const HashedFile& file : stage.prepared.files) expect(file);
+      for (const HashedFile& file : inputs.files) expect(file);
     } catch (const FileError& e) {
       remove_path(context.folder);
       fail(stage, e.exit_code(), e.what());
     }
   };
+  look(expect_same_state);
   StageResult result;
   try {
     result = stage.prepared.run(context, paths);
   } catch (const Error& e) {
-    look_again();
+    look(expect_unchanged);
     watch.write(true);
     fail(stage, e.exit_code(), e.what());
   } catch (const fs::filesystem_error& e) {
     fail(stage, 4, fmt::format("'{}': {}", e.path1().string(), e.code().message()));
   }
-  look_again();
+  look(expect_unchanged);
   return result;
 }
 
