@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -170,7 +171,7 @@ Json inspect(const fs::path& path) {
 /// Text of a file from somewhere must not steer the terminal.
 std::string printable(std::string text) {
   std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+      text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c); }, '?');
   return text;
 }
 
@@ -182,7 +183,8 @@ void print(const Json& json, const std::string& indent) {
       print(value, indent + "  ");
     } else if (value.is_array() && !value.empty() && value[0].is_string()) {
       fmt::print("{}{}\n", indent, key);
-      for (const Json& line : value) fmt::print("{}  {}\n", indent, printable(line.get<std::string>()));
+      for (const Json& line : value)
+        fmt::print("{}  {}\n", indent, printable(line.get<std::string>()));
     } else if (value.is_string()) {
       fmt::print("{}{:<24} {}\n", indent, key, printable(value.get<std::string>()));
     } else if (!value.is_array() || !value.empty()) {

@@ -43,8 +43,8 @@ void add_problems(Json& list, const fs::path& folder) {
     for (const fs::path& result : folders_in(stage)) {
       const bool work = result.extension() == ".partial";
       for (const std::string& text : work ? problems_of_work(result) : problems_of_result(result))
-        list.push_back(fmt::format("{}: {}", result.lexically_relative(folder).generic_string(),
-                                   text));
+        list.push_back(
+            fmt::format("{}: {}", result.lexically_relative(folder).generic_string(), text));
     }
 }
 

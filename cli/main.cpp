@@ -4,6 +4,7 @@
 #include "workflows/engine/program_version.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -20,14 +21,15 @@ namespace {
 
 constexpr int kNoResources = 4;  ///< exit code where memory, threads or a file are not to be had
 
-/// Every line of a message is an error of its own. Allocates nothing: it may be memory that is
-/// short.
+/// Every line of a message is an error of its own. Text that a file brought must not steer the
+/// terminal. Allocates nothing: it may be memory that is short.
 void print_errors(std::string_view text) {
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     if (end > 0) {
       std::fputs("error: ", stderr);
-      std::fwrite(text.data(), 1, end, stderr);
+      for (const char c : text.substr(0, end))
+        std::fputc(std::iscntrl(static_cast<unsigned char>(c)) && c != '\t' ? '?' : c, stderr);
       std::fputc('\n', stderr);
     }
     text.remove_prefix(std::min(end + 1, text.size()));

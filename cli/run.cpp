@@ -40,18 +40,18 @@ void check_redo(const RunArguments& args, const Workflow& workflow) {
   for (const std::string& wanted : args.redo) {
     if (std::find(names.begin(), names.end(), wanted) != names.end()) continue;
     const auto near = nearest(wanted, names);
-    throw InputError(fmt::format(
-        "--redo {}: there is no stage of this name in {}. {}", wanted, args.file,
-        near ? fmt::format("Did you mean '{}'?", *near)
-             : fmt::format("Known: {}.", fmt::join(names, ", "))));
+    throw InputError(fmt::format("--redo {}: there is no stage of this name in {}. {}", wanted,
+                                 args.file,
+                                 near ? fmt::format("Did you mean '{}'?", *near)
+                                      : fmt::format("Known: {}.", fmt::join(names, ", "))));
   }
 }
 
 void print_result(const fs::path& folder) {
   const SealedJson file = read_sealed(folder / kResultFile);
   if (!file.json)
-    throw FileError(fmt::format("{}: cannot be read back ({})", (folder / kResultFile).string(),
-                                file.problem));
+    throw FileError(
+        fmt::format("{}: cannot be read back ({})", (folder / kResultFile).string(), file.problem));
   const Json& result = *file.json;
   const auto line = [&](const char* key, const char* text, const char* unit) {
     if (const auto at = result.find(key); at != result.end() && at->is_number())
@@ -100,9 +100,8 @@ int run(const RunArguments& args) {
 int report(const std::string& folder, const std::vector<std::string>& allowed_programs) {
   const auto [lock, problem] = read_lock(folder);
   if (!lock)
-    throw InputError(
-        fmt::format("{}: no run folder ({}). Name the folder of a finished run.", folder,
-                    problem.empty() ? "it has no run.lock" : problem));
+    throw InputError(fmt::format("{}: no run folder ({}). Name the folder of a finished run.",
+                                 folder, problem.empty() ? "it has no run.lock" : problem));
   const Workflow workflow = load_workflow(lock->file, lock->overrides, all_stages());
   RunOptions options{.folder = folder,
                      .threads = available_threads(),
@@ -133,8 +132,7 @@ int report(const std::string& folder, const std::vector<std::string>& allowed_pr
 
 void add_allow_python(CLI::App& command, std::vector<std::string>& programs) {
   command
-      .add_option("--allow-python", programs,
-                  "interpreter that the workflow may name in 'python'")
+      .add_option("--allow-python", programs, "interpreter that the workflow may name in 'python'")
       ->take_all()
       ->allow_extra_args(false);
 }

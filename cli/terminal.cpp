@@ -1,6 +1,7 @@
 #include "cli/terminal.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 
@@ -97,7 +98,11 @@ void Display::done(std::string_view stage, double seconds) {
 
 void Display::notice(std::string_view text) {
   close();
-  fmt::print("note: {}\n", text);
+  std::string line(text);
+  // Names come from files, which must not steer the terminal.
+  std::replace_if(
+      line.begin(), line.end(), [](unsigned char c) { return std::iscntrl(c); }, '?');
+  fmt::print("note: {}\n", line);
 }
 
 void Display::close() {

@@ -66,15 +66,15 @@ fs::path temporary_name(const fs::path& path) {
   std::uint64_t number = 0;
   if (::getrandom(&number, sizeof number, 0) != sizeof number)
     fail(path, "cannot get a temporary name", errno);
-  return folder_of(path) / fmt::format(".{}.{:0{}x}{}", path.filename().string(), number,
-                                       kRandomDigits, kEnding);
+  return folder_of(path) /
+         fmt::format(".{}.{:0{}x}{}", path.filename().string(), number, kRandomDigits, kEnding);
 }
 
 OutputFile::OutputFile(fs::path path)
     : path_(std::move(path)),
       temporary_(temporary_name(path_)),
-      file_(::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC,
-                   0666)) {
+      file_(
+          ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666)) {
   if (file_ < 0) fail(path_, "cannot be written", errno);
 }
 

@@ -7,8 +7,8 @@
 #include <string_view>
 
 /// The one way in which the program writes, replaces and removes files. Every system call is
-/// checked, links are never followed for writing, and a file under its final name is complete and on
-/// the disk: after a power cut the old or the new is there. Everything throws FileError with the
+/// checked, links are never followed for writing, and a file under its final name is complete and
+/// on the disk: after a power cut the old or the new is there. Everything throws FileError with the
 /// system's reason.
 namespace flowslide {
 

@@ -32,7 +32,8 @@ struct HashedFile {
 using Between = std::function<void()>;
 
 /// Throws FileError for what is no regular file, and if the file changes meanwhile.
-HashedFile hash_file(const std::filesystem::path& path, const Between& between = [] {});
+HashedFile hash_file(
+    const std::filesystem::path& path, const Between& between = [] {});
 
 /// FileError if the file has been written or replaced since, even if its content is the old one
 /// again: who read it in between may have read something else.

@@ -111,8 +111,8 @@ DrawnFigures draw_figures(const fs::path& folder, const std::optional<std::strin
   for (const std::string& a : {(work / "").string(), report, report}) run.arguments.push_back(a);
   run.arguments.insert(run.arguments.end(), only.begin(), only.end());
   const HelperOutcome outcome = run_helper(run, limits.progress);
-  drawn.problem = problem_of(outcome, *interpreter, limits.seconds,
-                             last_lines(run.log, (work / "").string()));
+  drawn.problem =
+      problem_of(outcome, *interpreter, limits.seconds, last_lines(run.log, (work / "").string()));
   if (!drawn.problem.empty()) return drawn;
   std::error_code error;
   for (const Figure& figure : kFigures)

@@ -73,7 +73,8 @@ class Child {
   /// Its exit status if it has ended.
   std::optional<int> ended() {
     siginfo_t about{};
-    const int failed = ::waitid(P_PID, static_cast<id_t>(pid_), &about, WEXITED | WNOHANG | WNOWAIT);
+    const int failed =
+        ::waitid(P_PID, static_cast<id_t>(pid_), &about, WEXITED | WNOHANG | WNOWAIT);
     if (failed == 0 && about.si_pid == 0) return std::nullopt;
     if (failed != 0 && errno == EINTR) return std::nullopt;
     ::kill(-pid_, SIGKILL);  // what it has left behind, while the number is still its own

@@ -39,7 +39,7 @@ ReportFacts write_report(const ReportInputs& in, const ReportConfig& config,
     drawn = draw_figures(out, config.python, {progress, seconds});
     if (!drawn.problem.empty()) facts.warnings.push_back(drawn.problem);
   }
-  if (config.paraview) write_paraview(out, in.history, in.zone, in.flow);
+  if (config.paraview) write_paraview(out, in.history, in.zone, in.flow, progress);
   write_file(out / "facts.json", to_json(facts));
   write_file(out / "report.md", report_markdown(in, config, facts, drawn));
   return facts;

@@ -1,5 +1,5 @@
-#include "tests/support/scratch.hpp"
 #include "tests/support/paths.hpp"
+#include "tests/support/scratch.hpp"
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -20,8 +20,7 @@ struct Outcome {
 const std::string kWithoutPower =
     ::geteuid() == 0 ? "setpriv --bounding-set=-dac_override,-dac_read_search " : "";
 
-Outcome call(const Scratch& scratch, const std::string& arguments,
-             const std::string& before = "") {
+Outcome call(const Scratch& scratch, const std::string& arguments, const std::string& before = "") {
   const std::string command = "cd '" + scratch.path().string() + "' && " + before +
                               FLOWSLIDE_BINARY " " + arguments + " >out.txt 2>err.txt";
   const int status = std::system(command.c_str());
@@ -202,12 +201,10 @@ TEST_CASE("what cannot be looked at is said with the system's reason", "[cli]") 
     int code;
     const char* reason;
   };
-  const std::vector<Case> cases{{"loop", 4, "symbolic links"},
-                                {std::string(300, 'n'), 4, "too long"},
-                                {"missing/out", 4, "No such file"},
-                                {"pipe", 4, "pipe"},
-                                {"/dev/zero", 4, "device"},
-                                {"empty", 2, "no run of flowslide"}};
+  const std::vector<Case> cases{
+      {"loop", 4, "symbolic links"},      {std::string(300, 'n'), 4, "too long"},
+      {"missing/out", 4, "No such file"}, {"pipe", 4, "pipe"},
+      {"/dev/zero", 4, "device"},         {"empty", 2, "no run of flowslide"}};
   for (const Case& c : cases) {
     CAPTURE(c.path);
     const Outcome o = call(scratch, "inspect " + c.path);
@@ -229,8 +226,8 @@ TEST_CASE("what cannot be looked at is said with the system's reason", "[cli]") 
 TEST_CASE("an interpreter that a workflow names is not run without the user's word", "[cli]") {
   const Scratch scratch;
   const std::string set = " --set stages.report.with.python=" + (scratch / "python").string();
-  const auto python = scratch.write("python", "#!/bin/sh\ntouch '" + (scratch / "ran").string() +
-                                                  "'\nexit 1\n");
+  const auto python =
+      scratch.write("python", "#!/bin/sh\ntouch '" + (scratch / "ran").string() + "'\nexit 1\n");
   std::filesystem::permissions(python, std::filesystem::perms::owner_all);
   const Outcome o =
       call(scratch, "run " + test::source("workflows/mochikoshi-static.yaml") + " --out out" + set);
@@ -280,8 +277,7 @@ TEST_CASE("the committed workflows pass the check", "[cli]") {
   const Scratch scratch;
   for (const char* name : {"mochikoshi", "mochikoshi-static", "mochikoshi-opensees"}) {
     CAPTURE(name);
-    const Outcome o =
-        call(scratch, "check " + test::source("workflows/") + name + ".yaml");
+    const Outcome o = call(scratch, "check " + test::source("workflows/") + name + ".yaml");
     CHECK(o.code == 0);
     CHECK(o.err.empty());
   }
@@ -343,8 +339,7 @@ TEST_CASE("the committed manual pages are those of the program", "[cli]") {
   for (const auto& entry : std::filesystem::directory_iterator(scratch / "pages")) {
     const std::string name = entry.path().filename().string();
     INFO("build/release/flowslide docs docs/reference writes " << name);
-    CHECK(read_text_file(entry.path()) ==
-          read_text_file(test::source("docs/reference/" + name)));
+    CHECK(read_text_file(entry.path()) == read_text_file(test::source("docs/reference/" + name)));
     ++pages;
   }
   CHECK(pages >= 5);

@@ -59,9 +59,10 @@ TEST_CASE("hashing can be stopped") {
   const Scratch scratch;
   const fs::path path = scratch.write("a.txt", std::string(300'000, 'x'));
   int blocks = 0;
-  CHECK_THROWS_AS(hash_file(path, [&] {
-                    if (++blocks == 2) throw Interrupted("stopped");
-                  }),
+  CHECK_THROWS_AS(hash_file(path,
+                            [&] {
+                              if (++blocks == 2) throw Interrupted("stopped");
+                            }),
                   Interrupted);
   CHECK(blocks == 2);
 }

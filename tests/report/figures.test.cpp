@@ -72,7 +72,8 @@ TEST_CASE("The same data give the same bytes") {
   const std::filesystem::path figures = scratch / "report/figures";
   std::vector<std::string> sums;
   for (int round = 0; round < 2; ++round) {
-    REQUIRE(draw_figures(scratch / "report", std::nullopt, {}, {"final_materials"}).problem.empty());
+    REQUIRE(
+        draw_figures(scratch / "report", std::nullopt, {}, {"final_materials"}).problem.empty());
     for (const char* file : {"final_materials.svg", "final_materials.png"})
       sums.push_back(sha256_file(figures / file));
   }
@@ -141,9 +142,9 @@ TEST_CASE("The scripts draw beside themselves when a user runs them") {
   REQUIRE(files.size() == 3);
   CHECK(files[0] == "plot/plot.py");
   // As in the guide, by the interpreter that draw_figures() finds.
-  const std::string command =
-      "cd '" + scratch.path().string() + "' && { python3 plot/plot.py section_before || "
-      "/usr/bin/python3 plot/plot.py section_before; } >log 2>&1";
+  const std::string command = "cd '" + scratch.path().string() +
+                              "' && { python3 plot/plot.py section_before || "
+                              "/usr/bin/python3 plot/plot.py section_before; } >log 2>&1";
   const int status = std::system(command.c_str());
   INFO(read_text_file(scratch / "log"));
   CHECK(status == 0);
@@ -154,8 +155,9 @@ TEST_CASE("The scripts draw beside themselves when a user runs them") {
 TEST_CASE("An interpreter that sleeps is ended") {
   const Scratch scratch;
   write_case(scratch, false);
-  const auto python = scratch.write("python", "#!/bin/sh\ncase \"$*\" in *find_spec*) exit 0;; esac\n"
-                                              "exec sleep 1000\n");
+  const auto python = scratch.write("python",
+                                    "#!/bin/sh\ncase \"$*\" in *find_spec*) exit 0;; esac\n"
+                                    "exec sleep 1000\n");
   std::filesystem::permissions(python, std::filesystem::perms::owner_all);
   const DrawnFigures drawn =
       draw_figures(scratch / "report", python.string(), {.progress = {}, .seconds = 0.2});
@@ -166,9 +168,10 @@ TEST_CASE("An interpreter that sleeps is ended") {
 TEST_CASE("A disk that is full is no matter of the interpreter") {
   const Scratch scratch;
   write_case(scratch, false);
-  const auto python = scratch.write(
-      "python", "#!/bin/sh\ncase \"$*\" in *find_spec*) exit 0;; esac\n"
-                "echo 'OSError: [Errno 28] No space left on device'\nexit 74\n");
+  const auto python =
+      scratch.write("python",
+                    "#!/bin/sh\ncase \"$*\" in *find_spec*) exit 0;; esac\n"
+                    "echo 'OSError: [Errno 28] No space left on device'\nexit 74\n");
   std::filesystem::permissions(python, std::filesystem::perms::owner_all);
   CHECK_THROWS_WITH(draw_figures(scratch / "report", python.string(), {}),
                     Catch::Contains("No space left"));

@@ -90,11 +90,10 @@ TEST_CASE("a killed session whose input was touched is not continued", "[workflo
   auto types = sample::stages();
   const auto load = [&] {
     Workflow workflow = load_workflow(
-        scratch.write(
-            "case.yaml",
-            "schema: 1\nname: demo\nstages:\n"
-            "  one: {uses: sample.number, with: {value: 1}}\n"
-            "  count: {uses: sample.count, in: {start: one.number}, with: {steps: 9}}\n"),
+        scratch.write("case.yaml",
+                      "schema: 1\nname: demo\nstages:\n"
+                      "  one: {uses: sample.number, with: {value: 1}}\n"
+                      "  count: {uses: sample.count, in: {start: one.number}, with: {steps: 9}}\n"),
         {}, types);
     workflow.stages[1].prepared.files = {hash_file(scratch / "note.txt")};
     return workflow;
@@ -105,9 +104,9 @@ TEST_CASE("a killed session whose input was touched is not continued", "[workflo
 
   SECTION("killed") {
     // What a kill leaves: a session that did not look at its inputs again.
-    run_workflow(load_workflow(scratch / "case.yaml", std::vector<std::string>{"stages.count=null"},
-                               types),
-                 {.folder = out}, {});
+    run_workflow(
+        load_workflow(scratch / "case.yaml", std::vector<std::string>{"stages.count=null"}, types),
+        {.folder = out}, {});
     const fs::path work = work_folder(out, "count", decision(workflow).key);
     fs::create_directories(work);
     write_session(work, 1.0, workflow.stages[1].prepared.files, false);

@@ -29,9 +29,10 @@ struct Decision {
 /// Decides about one stage, and reads every file of a result before it says that it can be reused.
 /// `inputs` holds the content hash of every connected port that is known; `previous` is what the
 /// run folder stood for before this call, and only explains.
-Decision decide(const std::filesystem::path& run_folder, const WorkflowStage& stage,
-                const std::map<std::string, std::string>& inputs,
-                const std::optional<StageRecord>& previous, const Between& between = [] {});
+Decision decide(
+    const std::filesystem::path& run_folder, const WorkflowStage& stage,
+    const std::map<std::string, std::string>& inputs, const std::optional<StageRecord>& previous,
+    const Between& between = [] {});
 
 /// "c_soft_ratio 1 -> 0.5, cell 1 m -> 2 m" from two canonical texts; at most three of them.
 std::string describe_changes(const std::string& before, const std::string& now);

@@ -21,7 +21,7 @@ struct RunLock {
   std::string workflow;
   std::string file;                    ///< workflow file, absolute
   std::vector<std::string> overrides;  ///< --set options
-  bool complete = false;  ///< false while stages are still to run
+  bool complete = false;               ///< false while stages are still to run
   std::vector<Publication> published;
   std::map<std::string, std::string> given;  ///< sha256 as given, by name relative to DIR
   std::map<std::string, StageRecord> stages;

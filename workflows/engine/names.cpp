@@ -13,9 +13,8 @@ bool is_name(std::string_view text) {
 
 bool stays_inside(std::string_view path) {
   constexpr std::size_t kLongest = 1024;
-  if (path.size() > kLongest || std::any_of(path.begin(), path.end(), [](unsigned char c) {
-        return c < 0x20 || c == 0x7f;
-      }))
+  if (path.size() > kLongest ||
+      std::any_of(path.begin(), path.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
     return false;
   for (std::size_t begin = 0;;) {
     const std::size_t end = std::min(path.find('/', begin), path.size());

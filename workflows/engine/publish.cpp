@@ -93,9 +93,10 @@ std::vector<Publication> publications(const std::vector<StageRecord>& records) {
 void publish(const fs::path& run_folder, const Publication& item, bool ours) {
   const fs::path path = run_folder / item.name;
   if (is_there(path) && !is_published(path) && !(ours && is_file(path)))
-    throw FileError(fmt::format("'{}' was not made by this program (a result of that name goes "
-                                "there). Give it another name or choose another --out.",
-                                path.string()));
+    throw FileError(
+        fmt::format("'{}' was not made by this program (a result of that name goes "
+                    "there). Give it another name or choose another --out.",
+                    path.string()));
   if (path.extension() == ".pvd") {
     write_file(path, published_pvd(run_folder, item.target));
     return;
@@ -158,9 +159,10 @@ void give(const fs::path& run_folder, const StageRecord& record, RunLock& lock,
     const auto former = lock.given.find(name);
     const std::optional<std::string> now = present_digest(run_folder, name);
     if (now && *now != digest && (former == lock.given.end() || *now != former->second)) {
-      notice(fmt::format("{} was changed and is kept as it is (remove it to get that of the "
-                         "program)",
-                         name));
+      notice(
+          fmt::format("{} was changed and is kept as it is (remove it to get that of the "
+                      "program)",
+                      name));
       continue;
     }
     if (!now) make_folders((run_folder / name).parent_path());

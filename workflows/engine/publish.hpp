@@ -20,8 +20,8 @@ std::vector<Publication> publications(const std::vector<StageRecord>& records);
 /// this program has not made; `ours` says that a lock knows it.
 void publish(const std::filesystem::path& run_folder, const Publication& item, bool ours);
 
-/// Removes result.json and what the lock says is published, so that nothing at the top looks current
-/// while it is not. Without a lock the links into the results go.
+/// Removes result.json and what the lock says is published, so that nothing at the top looks
+/// current while it is not. Without a lock the links into the results go.
 void withdraw(const std::filesystem::path& run_folder, const std::optional<RunLock>& lock);
 
 /// Differences between the top of the folder and what a complete lock says is there.

@@ -52,8 +52,8 @@ FileRecord describe(const fs::path& folder, const std::string& name) {
 }
 
 const FileRecord* find_file(const std::vector<FileRecord>& files, std::string_view name) {
-  const auto it = std::find_if(files.begin(), files.end(),
-                               [&](const FileRecord& f) { return f.name == name; });
+  const auto it =
+      std::find_if(files.begin(), files.end(), [&](const FileRecord& f) { return f.name == name; });
   return it == files.end() ? nullptr : &*it;
 }
 

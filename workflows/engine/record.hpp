@@ -75,8 +75,8 @@ struct Verified {
   std::vector<std::string> problems;  ///< "mpm.h5 is missing", one per file
   std::vector<HashedFile> files;      ///< those without a problem, in the order of the record
 };
-Verified verify(const StageRecord& record, const std::filesystem::path& folder,
-                const Between& between = [] {});
+Verified verify(
+    const StageRecord& record, const std::filesystem::path& folder, const Between& between = [] {});
 
 /// Those of `files` that belong to an output.
 std::vector<HashedFile> files_of_output(const std::vector<HashedFile>& files,

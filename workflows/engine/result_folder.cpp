@@ -4,8 +4,8 @@
 #include "core/files.hpp"
 
 #include <cerrno>
-#include <cstring>
 #include <cstdio>
+#include <cstring>
 #include <fcntl.h>
 #include <optional>
 #include <sys/stat.h>
@@ -49,9 +49,10 @@ void make_folders(const fs::path& folder) {
 
 void make_work_folder(const fs::path& run_folder, const fs::path& work, bool keep) {
   if (const auto link = link_between(run_folder, work.parent_path()))
-    throw FileError(fmt::format("'{}' is a link (results would be written outside the run "
-                                "folder). Remove it, or make the run folder itself the link.",
-                                link->string()));
+    throw FileError(
+        fmt::format("'{}' is a link (results would be written outside the run "
+                    "folder). Remove it, or make the run folder itself the link.",
+                    link->string()));
   if (!keep) remove_path(work);
   make_folders(work);
 }

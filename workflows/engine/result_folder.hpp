@@ -16,8 +16,8 @@ std::filesystem::path work_folder(const std::filesystem::path& run_folder, const
 /// Makes a folder and those above it, on the disk too. FileError with the system's reason.
 void make_folders(const std::filesystem::path& folder);
 
-/// An empty `work`, a work_folder of `run_folder`, or what is there if `keep`. FileError if a folder
-/// between the two is a link: what is written and removed must stay in the run folder.
+/// An empty `work`, a work_folder of `run_folder`, or what is there if `keep`. FileError if a
+/// folder between the two is a link: what is written and removed must stay in the run folder.
 void make_work_folder(const std::filesystem::path& run_folder, const std::filesystem::path& work,
                       bool keep);
 

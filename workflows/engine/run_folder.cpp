@@ -39,8 +39,8 @@ int open_guard(const fs::path& guard) {
   struct stat about {};
   if (::fstat(file, &about) == 0 && S_ISREG(about.st_mode) && about.st_nlink == 1) return file;
   ::close(file);
-  throw FileError(fmt::format("'{}' is no file of the run folder alone. Remove it.",
-                              guard.string()));
+  throw FileError(
+      fmt::format("'{}' is no file of the run folder alone. Remove it.", guard.string()));
 }
 
 /// Locks the guard file; false if another process has it.

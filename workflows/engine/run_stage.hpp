@@ -26,7 +26,6 @@ struct StageState {
 /// which the result exists. FileError, and no result, if a file that the settings name or an input
 /// was written meanwhile.
 StageState run_stage(const WorkflowStage& stage, const Decision& decision,
-                     const StageInputs& inputs, const RunOptions& options,
-                     const RunEvents& events);
+                     const StageInputs& inputs, const RunOptions& options, const RunEvents& events);
 
 }  // namespace flowslide

@@ -76,8 +76,9 @@ SealedJson read_sealed(const fs::path& path) {
   const std::string text = read_file(path, kLongest);
   if (!is_sealed(text)) {
     // Files of earlier programs had no checksum.
-    const bool unsealed = text.find("\"sha256\"", text.size() - std::min<std::size_t>(
-                                                      text.size(), 200)) == std::string::npos;
+    const bool unsealed =
+        text.find("\"sha256\"", text.size() - std::min<std::size_t>(text.size(), 200)) ==
+        std::string::npos;
     if (unsealed && parse_object(text))
       return {{}, fmt::format("{} has no checksum (an earlier program wrote it)", name)};
     return {{}, fmt::format("{} is damaged (its checksum is that of another text)", name)};

@@ -14,9 +14,9 @@ namespace {
 /// Name of an entry through which something outside the folder could be written.
 std::optional<std::string> way_out(const fs::path& folder) {
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const bool plain = !entry.is_symlink() &&
-                       (entry.is_directory() ||
-                        (entry.is_regular_file() && entry.hard_link_count() == 1));
+    const bool plain =
+        !entry.is_symlink() &&
+        (entry.is_directory() || (entry.is_regular_file() && entry.hard_link_count() == 1));
     if (!plain) return entry.path().lexically_relative(folder).generic_string();
   }
   return std::nullopt;
@@ -56,8 +56,7 @@ SessionRead read_session(const fs::path& work) {
   const fs::file_status status = fs::symlink_status(work, error);
   if (status.type() == fs::file_type::not_found) return {};
   if (!fs::is_directory(status)) return {{}, "its folder is none"};
-  if (const auto name = way_out(work))
-    return {{}, fmt::format("{} is a link or no file", *name)};
+  if (const auto name = way_out(work)) return {{}, fmt::format("{} is a link or no file", *name)};
   const SealedJson file = read_sealed(work / kSessionFile);
   if (!file.json)
     return {{}, file.problem.empty() ? fmt::format("{} is missing", kSessionFile) : file.problem};
@@ -72,8 +71,9 @@ SessionRead read_session(const fs::path& work) {
 
 bool is_touched(const Session& session, std::span<const HashedFile> inputs) {
   if (session.ended) return false;
-  return !std::equal(inputs.begin(), inputs.end(), session.inputs.begin(), session.inputs.end(),
-                     [](const HashedFile& now, const FileState& then) { return now.state == then; });
+  return !std::equal(
+      inputs.begin(), inputs.end(), session.inputs.begin(), session.inputs.end(),
+      [](const HashedFile& now, const FileState& then) { return now.state == then; });
 }
 
 }  // namespace flowslide

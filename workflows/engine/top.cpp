@@ -49,9 +49,10 @@ void RunTop::stage_runs() {
   if (withdrawn_) return;
   std::error_code error;
   if (fs::exists(folder_ / kResultFile, error))
-    events_.notice(fmt::format("{} of the earlier run goes until this one is complete; what it "
-                               "computed stays in stages/",
-                               kResultFile));
+    events_.notice(
+        fmt::format("{} of the earlier run goes until this one is complete; what it "
+                    "computed stays in stages/",
+                    kResultFile));
   withdraw_earlier();
 }
 
