@@ -3,21 +3,45 @@
 #include "core/check.hpp"
 #include "workflows/engine/program_version.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <new>
-#include <sstream>
+#include <string_view>
+#include <system_error>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 namespace {
 
-/// Every line of a message is an error of its own.
-void print_errors(const std::string& text) {
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);)
-    if (!line.empty()) fmt::print(stderr, "error: {}\n", line);
+constexpr int kNoResources = 4;  ///< exit code where memory, threads or a file are not to be had
+
+/// Every line of a message is an error of its own. Text that a file brought must not steer the
+/// terminal. Allocates nothing: it may be memory that is short.
+void print_errors(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    if (end > 0) {
+      std::fputs("error: ", stderr);
+      for (const char c : text.substr(0, end))
+        std::fputc(std::iscntrl(static_cast<unsigned char>(c)) && c != '\t' ? '?' : c, stderr);
+      std::fputc('\n', stderr);
+    }
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+}
+
+bool main_has_ended = false;
+
+/// Libraries that end the program themselves, as that of the threads does when it gets none, do so
+/// with a code that means something else here.
+void correct_exit_code() {
+  if (!main_has_ended) ::_exit(kNoResources);
 }
 
 int run(int argc, char** argv) {
@@ -49,10 +73,7 @@ int run(int argc, char** argv) {
   return code;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  flowslide::cli::prefer_short_waits(argv);
+int run_and_report(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const flowslide::Error& e) {
@@ -63,7 +84,13 @@ int main(int argc, char** argv) {
     print_errors(
         "out of memory (the model is larger than this machine can hold). Use a coarser "
         "cell or spacing, or a larger machine.");
-    return 3;
+    return kNoResources;
+  } catch (const std::filesystem::filesystem_error& e) {
+    print_errors(fmt::format("{}: {}", e.path1().string(), e.code().message()));
+    return kNoResources;
+  } catch (const std::system_error& e) {
+    print_errors(fmt::format("{} (the system refused it)", e.what()));
+    return kNoResources;
   } catch (const std::exception& e) {
     print_errors(
         fmt::format("internal error: {} (a defect of the program, not of your input). "
@@ -71,4 +98,19 @@ int main(int argc, char** argv) {
                     e.what()));
     return 3;
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::atexit(correct_exit_code);
+  flowslide::cli::prefer_short_waits(argv);
+  int code = kNoResources;
+  try {
+    code = run_and_report(argc, argv);
+  } catch (const std::bad_alloc&) {
+    print_errors("out of memory");
+  }
+  main_has_ended = true;
+  return code;
 }

@@ -1,6 +1,7 @@
 #include "cli/terminal.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 
@@ -47,6 +48,7 @@ RunEvents Display::events() {
     progress(stage, fraction, text);
   };
   events.done = [this](std::string_view stage, double seconds) { done(stage, seconds); };
+  events.notice = [this](std::string_view text) { notice(text); };
   return events;
 }
 
@@ -92,6 +94,15 @@ void Display::done(std::string_view stage, double seconds) {
   bar_on_line_ = false;
   fmt::print("{:<{}} done in {:.1f} s\n", stage, kNameWidth, seconds);
   std::fflush(stdout);
+}
+
+void Display::notice(std::string_view text) {
+  close();
+  std::string line(text);
+  // Names come from files, which must not steer the terminal.
+  std::replace_if(
+      line.begin(), line.end(), [](unsigned char c) { return std::iscntrl(c); }, '?');
+  fmt::print("note: {}\n", line);
 }
 
 void Display::close() {

@@ -17,6 +17,8 @@ class Display {
   explicit Display(bool terminal) : terminal_(terminal) {}
   [[nodiscard]] RunEvents events();
   void plan(std::string_view stage, const Decision& decision) const;
+  /// Something about the run folder, in full, however long.
+  void notice(std::string_view text);
   /// Ends a bar that is still on the line.
   void close();
 

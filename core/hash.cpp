@@ -1,11 +1,10 @@
 #include "core/hash.hpp"
 
 #include "core/check.hpp"
+#include "core/files.hpp"
 
 #include <array>
-#include <fstream>
 #include <new>
-#include <vector>
 
 #include <openssl/evp.h>
 
@@ -45,15 +44,8 @@ std::string sha256(std::string_view bytes) {
 }
 
 std::string sha256_file(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw FileError(fmt::format("cannot read '{}'", path.string()));
   Sha256 digest;
-  std::vector<char> block(1 << 20);
-  while (in) {
-    in.read(block.data(), static_cast<std::streamsize>(block.size()));
-    digest.add(block.data(), static_cast<std::size_t>(in.gcount()));
-  }
-  if (in.bad()) throw FileError(fmt::format("reading '{}' failed half-way", path.string()));
+  read_blocks(path, [&](std::string_view block) { digest.add(block.data(), block.size()); });
   return digest.hex();
 }
 

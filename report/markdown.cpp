@@ -183,8 +183,8 @@ std::string report_markdown(const ReportInputs& in, const ReportConfig& c, const
       "`facts.json` holds the key numbers, `runout.csv` and `zone.csv` the time series";
   if (c.paraview) out += ", `flow.pvd` and `zone.pvd` the fields for ParaView";
   out +=
-      ". `data/` holds what the figures are drawn from; change `data/plot*.py` and run "
-      "`python3 data/plot.py .` to restyle them.\n";
+      ". `data/` holds what the figures are drawn from. To restyle them, change the scripts in "
+      "`plot/` of the run folder and run `python3 plot/plot.py` there.\n";
   return out;
 }
 

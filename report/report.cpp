@@ -25,7 +25,7 @@ void make_folder(const std::filesystem::path& folder) {
 }  // namespace
 
 ReportFacts write_report(const ReportInputs& in, const ReportConfig& config,
-                         const std::filesystem::path& out) {
+                         const std::filesystem::path& out, const Progress& progress) {
   const FinalState end = final_state(in.particles, in.flow, config);
   ReportFacts facts = compute_facts(in.zone, in.flow, end, config);
   make_folder(out / "data");
@@ -34,10 +34,12 @@ ReportFacts write_report(const ReportInputs& in, const ReportConfig& config,
   write_plot_data(out / "data", in.history, in.zone, in.flow, end, facts, config);
   DrawnFigures drawn;
   if (config.figures) {
-    drawn = draw_figures(out, config.python);
+    // Drawing takes seconds on a machine that has nothing else to do.
+    const double seconds = 300.0 + 1e-3 * static_cast<double>(in.particles.size());
+    drawn = draw_figures(out, config.python, {progress, seconds});
     if (!drawn.problem.empty()) facts.warnings.push_back(drawn.problem);
   }
-  if (config.paraview) write_paraview(out, in.history, in.zone, in.flow);
+  if (config.paraview) write_paraview(out, in.history, in.zone, in.flow, progress);
   write_file(out / "facts.json", to_json(facts));
   write_file(out / "report.md", report_markdown(in, config, facts, drawn));
   return facts;

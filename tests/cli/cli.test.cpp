@@ -1,7 +1,8 @@
-#include "tests/support/scratch.hpp"
 #include "tests/support/paths.hpp"
+#include "tests/support/scratch.hpp"
 
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 
@@ -15,9 +16,13 @@ struct Outcome {
   std::string out, err;
 };
 
-Outcome call(const Scratch& scratch, const std::string& arguments) {
-  const std::string command = "cd '" + scratch.path().string() + "' && " FLOWSLIDE_BINARY " " +
-                              arguments + " >out.txt 2>err.txt";
+/// Root reads what is closed to it, unless it gives that power up.
+const std::string kWithoutPower =
+    ::geteuid() == 0 ? "setpriv --bounding-set=-dac_override,-dac_read_search " : "";
+
+Outcome call(const Scratch& scratch, const std::string& arguments, const std::string& before = "") {
+  const std::string command = "cd '" + scratch.path().string() + "' && " + before +
+                              FLOWSLIDE_BINARY " " + arguments + " >out.txt 2>err.txt";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
           read_text_file(scratch / "out.txt"), read_text_file(scratch / "err.txt")};
@@ -140,11 +145,96 @@ TEST_CASE("a small import runs, is then up to date, and can be inspected", "[cli
     CHECK_THAT(o.err, Contains("stress.out:2"));
     CHECK_FALSE(std::filesystem::exists(scratch / "out/result.json"));
   }
-  SECTION("so does a workflow that is refused") {
-    o = run(scratch, shake() + "  z: {uses: nothing}\n");
-    CHECK(o.code == 2);
-    CHECK_FALSE(std::filesystem::exists(scratch / "out/result.json"));
+  SECTION("a command that is refused takes nothing away") {
+    const std::string before = read_text_file(scratch / "out/result.json");
+    CHECK(run(scratch, shake() + "  z: {uses: nothing}\n").code == 2);
+    scratch.write("w.yaml", "schema: 1\nname: w\nstages:\n" + shake());
+    CHECK(call(scratch, "run w.yaml --out out --set stages.shake.with.untis=1").code == 2);
+    CHECK(call(scratch, "run w.yaml --out out --redo shaek").code == 2);
+    CHECK_THAT(call(scratch, "run w.yaml --out out --redo shaek").err,
+               Contains("Did you mean 'shake'"));
+    std::filesystem::remove(scratch / "stress.out");
+    CHECK(run(scratch, shake()).code == 4);
+    CHECK(read_text_file(scratch / "out/result.json") == before);
   }
+  SECTION("a stage is run again on request") {
+    o = call(scratch, "run w.yaml --out out --redo shake");
+    CHECK(o.code == 0);
+    CHECK_THAT(o.out, Contains("runs: asked for"));
+  }
+}
+
+TEST_CASE("inspect reads all of a run folder and names what is damaged", "[cli]") {
+  const Scratch scratch;
+  write_model(scratch);
+  REQUIRE(run(scratch, shake()).code == 0);
+  CHECK_THAT(call(scratch, "inspect out --json").out, Contains("\"problems\": []"));
+  int files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(scratch / "out")) {
+    if (!entry.is_regular_file() || entry.file_size() == 0) continue;  // the guard file is empty
+    CAPTURE(entry.path().string());
+    const auto time = std::filesystem::last_write_time(entry.path());
+    const std::string whole = read_text_file(entry.path());
+    std::string bytes = whole;
+    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+    std::ofstream(entry.path(), std::ios::binary) << bytes;
+    std::filesystem::last_write_time(entry.path(), time);
+    const Outcome o = call(scratch, "inspect out");
+    CHECK(o.code == 0);
+    CHECK_THAT(o.out, Contains("problems") && Contains(entry.path().filename().string()));
+    std::ofstream(entry.path(), std::ios::binary) << whole;
+    ++files;
+  }
+  CHECK(files == 5);  // run.lock, result.json, stage.json, facts.json, history.h5
+  CHECK_THAT(call(scratch, "inspect out --json").out, Contains("\"problems\": []"));
+}
+
+TEST_CASE("what cannot be looked at is said with the system's reason", "[cli]") {
+  const Scratch scratch;
+  std::filesystem::create_directory(scratch / "empty");
+  std::filesystem::create_symlink("loop", scratch / "loop");
+  REQUIRE(std::system(("mkfifo '" + (scratch / "pipe").string() + "'").c_str()) == 0);
+  scratch.write("closed/file", "x");
+  std::filesystem::permissions(scratch / "closed", std::filesystem::perms::none);
+  struct Case {
+    std::string path;
+    int code;
+    const char* reason;
+  };
+  const std::vector<Case> cases{
+      {"loop", 4, "symbolic links"},      {std::string(300, 'n'), 4, "too long"},
+      {"missing/out", 4, "No such file"}, {"pipe", 4, "pipe"},
+      {"/dev/zero", 4, "device"},         {"empty", 2, "no run of flowslide"}};
+  for (const Case& c : cases) {
+    CAPTURE(c.path);
+    const Outcome o = call(scratch, "inspect " + c.path);
+    CHECK(o.code == c.code);
+    CHECK_THAT(o.err, Contains(c.reason) && !Contains("internal error"));
+  }
+  for (const char* command : {"inspect closed/file", "inspect closed", "run closed/w.yaml",
+                              "report closed", "run w.yaml --out closed/out"}) {
+    CAPTURE(command);
+    write_model(scratch);
+    scratch.write("w.yaml", "schema: 1\nname: w\nstages:\n" + shake());
+    const Outcome o = call(scratch, command, kWithoutPower);
+    CHECK(o.code == 4);
+    CHECK_THAT(o.err, Contains("ermission denied") && !Contains("internal error"));
+  }
+  std::filesystem::permissions(scratch / "closed", std::filesystem::perms::owner_all);
+}
+
+TEST_CASE("an interpreter that a workflow names is not run without the user's word", "[cli]") {
+  const Scratch scratch;
+  const std::string set = " --set stages.report.with.python=" + (scratch / "python").string();
+  const auto python =
+      scratch.write("python", "#!/bin/sh\ntouch '" + (scratch / "ran").string() + "'\nexit 1\n");
+  std::filesystem::permissions(python, std::filesystem::perms::owner_all);
+  const Outcome o =
+      call(scratch, "run " + test::source("workflows/mochikoshi-static.yaml") + " --out out" + set);
+  CHECK(o.code == 2);
+  CHECK_THAT(o.err, Contains("--allow-python"));
+  CHECK_FALSE(std::filesystem::exists(scratch / "out"));
+  CHECK_FALSE(std::filesystem::exists(scratch / "ran"));
 }
 
 TEST_CASE("records are measured as text and as JSON", "[cli]") {
@@ -187,8 +277,7 @@ TEST_CASE("the committed workflows pass the check", "[cli]") {
   const Scratch scratch;
   for (const char* name : {"mochikoshi", "mochikoshi-static", "mochikoshi-opensees"}) {
     CAPTURE(name);
-    const Outcome o =
-        call(scratch, "check " + test::source("workflows/") + name + ".yaml");
+    const Outcome o = call(scratch, "check " + test::source("workflows/") + name + ".yaml");
     CHECK(o.code == 0);
     CHECK(o.err.empty());
   }
@@ -250,8 +339,7 @@ TEST_CASE("the committed manual pages are those of the program", "[cli]") {
   for (const auto& entry : std::filesystem::directory_iterator(scratch / "pages")) {
     const std::string name = entry.path().filename().string();
     INFO("build/release/flowslide docs docs/reference writes " << name);
-    CHECK(read_text_file(entry.path()) ==
-          read_text_file(test::source("docs/reference/" + name)));
+    CHECK(read_text_file(entry.path()) == read_text_file(test::source("docs/reference/" + name)));
     ++pages;
   }
   CHECK(pages >= 5);

@@ -1,7 +1,8 @@
 #include "workflows/engine/graph.hpp"
 
+#include "workflows/engine/names.hpp"
+
 #include <algorithm>
-#include <cctype>
 
 #include <fmt/format.h>
 
@@ -48,13 +49,6 @@ void refuse_unknown_keys(const YamlNode& map, const std::vector<std::string>& kn
       throw value.error(fmt::format("unknown key '{}' (it would have no effect). {}", key,
                                     did_you_mean(key, known)));
   }
-}
-
-/// Names become folders, so only characters that every file system and shell takes as they are.
-bool is_name(std::string_view text) {
-  return !text.empty() && text.size() <= 64 && std::isalnum(static_cast<unsigned char>(text[0])) &&
-         std::all_of(text.begin(), text.end(),
-                     [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
 }
 
 std::vector<std::string> names(const std::vector<Port>& ports) {

@@ -1,17 +1,15 @@
 #include "workflows/engine/program_version.hpp"
 #include "workflows/engine/runner.hpp"
+#include "workflows/engine/sealed_json.hpp"
 
 #include <algorithm>
 #include <array>
 #include <map>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace flowslide {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Promised to every reader of result.json; null if no stage of the workflow finds them.
 constexpr std::array<std::string_view, 6> kPromised{"runout_m",
@@ -21,8 +19,8 @@ constexpr std::array<std::string_view, 6> kPromised{"runout_m",
                                                     "mass_error",
                                                     "energy_error"};
 /// Names at the top that no stage can claim.
-constexpr std::array<std::string_view, 6> kReserved{"schema", "program", "workflow",
-                                                    "wall_s", "wall",    "stages"};
+constexpr std::array<std::string_view, 7> kReserved{"schema", "program", "workflow", "wall_s",
+                                                    "wall",   "stages",  "sha256"};
 
 }  // namespace
 
@@ -59,7 +57,7 @@ std::string result_json(const Workflow& workflow, const std::vector<StageOutcome
                      "stages_s: the sessions that computed these stages, whenever that was; "
                      "overhead_s: this call outside the stages; wall_s: their sum"}};
   result["stages"] = stages;
-  return result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return seal(result);
 }
 
 }  // namespace flowslide

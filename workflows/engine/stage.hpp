@@ -1,4 +1,5 @@
 #pragma once
+#include "config/canonical.hpp"
 #include "config/manual.hpp"
 #include "config/schema.hpp"
 #include "config/yaml.hpp"
@@ -30,6 +31,8 @@ struct StageResult {
   std::string facts = "{}";  ///< JSON object; its entries go into result.json
   /// Files and folders in the stage's folder that appear at the top of the run folder, by name.
   std::vector<std::string> publish;
+  /// Files that are copied to the top of the run folder, where they are the user's to change.
+  std::vector<std::string> give = {};
 };
 
 struct NoSettings {};
@@ -58,6 +61,8 @@ struct Schema<NoSettings> {
 ///     };
 ///
 /// `static void check(const Config&)` is called, if there is one, before anything runs.
+/// `static std::vector<std::string> programs(const Config&)` names what the stage would start at
+/// the word of a workflow file; the engine asks for the user's.
 /// run() must give the same bytes for the same settings and inputs, whatever the number of threads.
 /// With `checkpoints`, run() looks into context.folder for its own checkpoint first.
 template <class S>
@@ -81,7 +86,9 @@ using PortPaths = std::map<std::string, std::filesystem::path>;
 
 /// A stage with its settings read and checked.
 struct PreparedStage {
-  std::string settings;  ///< canonical text
+  std::string settings;               ///< canonical text
+  std::vector<HashedFile> files;      ///< that the settings name, as they were when read for it
+  std::vector<std::string> programs;  ///< that the settings name and the stage would start
   std::function<StageResult(const RunContext&, const PortPaths&)> run;
 };
 
@@ -149,11 +156,17 @@ StageType stage_type() {
         throw with.value_or(stage).error(e.what());
       }
     }
-    return PreparedStage{
-        canonical_text(config), [config](const RunContext& context, const PortPaths& paths) {
-          return S::run(context, config, detail::bind_ports<typename S::Inputs>(paths),
-                        detail::bind_ports<typename S::Outputs>(paths));
-        }};
+    CanonicalSettings canonical = canonical_settings(config);
+    PreparedStage prepared{.settings = std::move(canonical.text),
+                           .files = std::move(canonical.files),
+                           .programs = {},
+                           .run = {}};
+    if constexpr (requires { S::programs(config); }) prepared.programs = S::programs(config);
+    prepared.run = [config](const RunContext& context, const PortPaths& paths) {
+      return S::run(context, config, detail::bind_ports<typename S::Inputs>(paths),
+                    detail::bind_ports<typename S::Outputs>(paths));
+    };
+    return prepared;
   };
   return type;
 }

@@ -1,5 +1,6 @@
 #include "report/report.hpp"
 
+#include "report/figures.hpp"
 #include "workflows/stages/stage_list.hpp"
 
 namespace flowslide {
@@ -8,7 +9,7 @@ namespace {
 struct ReportStage {
   static constexpr std::string_view name = "report.runout";
   static constexpr std::string_view doc = "Facts, figures, tables and ParaView files of a runout.";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   static constexpr bool checkpoints = false;
   using Config = ReportConfig;
   struct Inputs {
@@ -29,6 +30,10 @@ struct ReportStage {
     Artifact<ReportFolder> report{"report"};
     void visit(auto&& port) { port("report", report); }
   };
+  static std::vector<std::string> programs(const Config& config) {
+    if (!config.figures || !config.python) return {};
+    return {*config.python};
+  }
   static StageResult run(const RunContext& context, const Config& config, const Inputs& in,
                          const Outputs& out) {
     const FemHistory history(in.history.path);
@@ -37,10 +42,14 @@ struct ReportStage {
     const MpmHistory flow(in.flow.path);
     const ReportFacts facts =
         write_report({history, zone, particles, in.audit.path, flow, context.provenance}, config,
-                     out.report.path);
+                     out.report.path, context.progress);
     StageResult result{.facts = to_json(facts), .publish = {"report"}};
     for (const char* file : {"report/flow.pvd", "report/zone.pvd"})
       if (std::filesystem::exists(context.folder / file)) result.publish.emplace_back(file);
+    if (config.figures) {
+      std::filesystem::create_directories(context.folder / "plot");
+      result.give = write_plot_scripts(context.folder / "plot");
+    }
     return result;
   }
 };
