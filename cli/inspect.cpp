@@ -1,4 +1,5 @@
 #include "cli/command.hpp"
+#include "core/unreadable.hpp"
 #include "importers/recorder_text.hpp"
 #include "model/field_store.hpp"
 #include "model/history.hpp"
@@ -151,7 +152,10 @@ Json inspect_run(const fs::path& folder) {
   std::ifstream in(folder / "result.json");
   if (const Json result = Json::parse(in, nullptr, false); result.is_object())
     for (const auto& [key, value] : result.items())
-      if (value.is_number() && key != "schema") j["result"][key] = value;
+      if (value.is_number() && key != "schema")
+        j["result"][key] = value;
+      else if (key == "warnings")
+        j["warnings"] = value;
   return j;
 }
 
@@ -161,7 +165,11 @@ Json inspect_workflow(const fs::path& path) {
   try {
     const Workflow workflow = load_workflow(path, {}, all_stages());
     j["name"] = workflow.name;
-    for (const WorkflowStage& stage : workflow.stages) j["stages"][stage.name] = stage.type.name;
+    for (const WorkflowStage& stage : workflow.stages) {
+      j["stages"][stage.name] = stage.type.name;
+      for (const std::string& text : stage.warnings)
+        j["warnings"].push_back(fmt::format("{}: {}", stage.name, text));
+    }
   } catch (const Error& e) {
     j["problems"].push_back(e.what());
   }
@@ -183,8 +191,10 @@ Json inspect_recorder(const fs::path& path) {
 }
 
 Json inspect(const fs::path& path) {
-  if (!fs::exists(path)) throw FileError(fmt::format("{}: there is no such file.", path.string()));
-  if (fs::is_directory(path)) return inspect_run(path);
+  std::error_code error;
+  if (fs::is_directory(path, error)) return inspect_run(path);
+  if (const std::string why = why_unreadable(path); !why.empty())
+    throw FileError(fmt::format("{}: {}", path.string(), why));
   std::array<char, 8> head{};
   std::ifstream(path, std::ios::binary).read(head.data(), head.size());
   constexpr std::string_view kHdf5 = "\x89HDF\r\n\x1a\n";

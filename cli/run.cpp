@@ -43,19 +43,38 @@ Workflow load_or_withdraw(const RunArguments& args, const fs::path& folder) {
   }
 }
 
-void print_result(const fs::path& folder) {
+/// A runout of 0 says that nothing passed the toe; how far the front stopped before it says whether
+/// the toe is the right one.
+std::string no_runout(const nlohmann::json& result) {
+  const auto front = result.find("front_m"), toe = result.find("toe_m");
+  if (front == result.end() || toe == result.end() || !front->is_number() || !toe->is_number())
+    return "0 m";
+  return fmt::format("0 m (the front, at x = {:.4g} m, is {:.4g} m short of the toe)",
+                     front->get<double>(), toe->get<double>() - front->get<double>());
+}
+
+void print_result(const fs::path& folder, std::size_t warnings) {
   std::ifstream in(folder / kResultFile);
   const auto result = nlohmann::json::parse(in);
-  const auto line = [&](const char* key, const char* text, const char* unit) {
+  const auto line = [&](const char* key, const std::string& text, const char* unit) {
     if (result[key].is_number())
       fmt::print("{:<30} {:.4g}{}{}\n", text, result[key].get<double>(), *unit ? " " : "", unit);
   };
-  line("runout_m", "runout", "m");
-  line("liquefaction_depth_pond_m", "liquefaction depth, pond", "m");
-  line("liquefaction_depth_crest_m", "liquefaction depth, crest", "m");
+  if (result["runout_m"].is_number() && result["runout_m"].get<double>() == 0.0)
+    fmt::print("{:<30} {}\n", "runout", no_runout(result));
+  else
+    line("runout_m", "runout", "m");
+  constexpr std::string_view depth = "liquefaction_depth_";
+  for (const auto& [name, value] : result.items())
+    if (name.starts_with(depth) && name.ends_with("_m"))
+      line(name.c_str(),
+           fmt::format("liquefaction depth, {}",
+                       name.substr(depth.size(), name.size() - depth.size() - 2)),
+           "m");
   line("transfer_time_s", "transfer at", "s");
   line("mass_error", "mass error", "");
   line("energy_error", "energy error", "");
+  if (warnings > 0) fmt::print("{:<30} {}, see above\n", "warnings before use", warnings);
   fmt::print("{:<30} {}\n", "result", (folder / kResultFile).string());
 }
 
@@ -65,6 +84,8 @@ int run(const RunArguments& args) {
     folder = fs::path("runs") / workflow_name(load_yaml(args.file, args.overrides));
   const Workflow workflow = load_or_withdraw(args, folder);
   Display display(::isatty(STDOUT_FILENO) == 1);
+  for (const WorkflowStage& stage : workflow.stages)
+    display.events().warned(stage.name, stage.warnings);
   if (args.dry_run) {
     for (const PlanLine& line : plan_workflow(workflow, folder))
       display.plan(line.stage, line.decision);
@@ -80,7 +101,7 @@ int run(const RunArguments& args) {
     display.close();
     throw;
   }
-  print_result(folder);
+  print_result(folder, display.num_warnings());
   return 0;
 }
 
@@ -115,7 +136,7 @@ int report(const std::string& folder) {
                     lock->file));
   Display display(::isatty(STDOUT_FILENO) == 1);
   run_workflow(workflow, options, display.events());
-  print_result(folder);
+  print_result(folder, display.num_warnings());
   return 0;
 }
 
@@ -146,7 +167,16 @@ void add_check(CLI::App& app, Command& action) {
   command->callback([args, &action] {
     action = [args] {
       const Workflow workflow = load_workflow(args->file, args->overrides, all_stages());
-      fmt::print("{}: {} stages, no problem found\n", args->file, workflow.stages.size());
+      std::size_t warnings = 0;
+      for (const WorkflowStage& stage : workflow.stages)
+        for (const std::string& text : stage.warnings) {
+          print_warning(fmt::format("{}: {}", stage.name, text));
+          ++warnings;
+        }
+      fmt::print("{}: {} stages, {}\n", args->file, workflow.stages.size(),
+                 warnings == 0   ? "no problem found"
+                 : warnings == 1 ? "1 warning"
+                                 : fmt::format("{} warnings", warnings));
       return 0;
     };
   });

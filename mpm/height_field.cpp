@@ -1,13 +1,14 @@
 #include "mpm/height_field.hpp"
 
 #include "core/check.hpp"
+#include "core/odd_characters.hpp"
+#include "core/unreadable.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <fstream>
 #include <map>
-#include <optional>
 #include <string_view>
 
 namespace flowslide::mpm {
@@ -35,15 +36,15 @@ class GridFile {
  public:
   explicit GridFile(const std::filesystem::path& path)
       : name_(path.filename().string()), in_(path) {
-    if (!in_ || std::filesystem::is_directory(path))
-      throw FileError(fmt::format("{}: cannot be opened (no such file, or no right to read it)",
-                                  path.string()));
+    if (const std::string why = why_unreadable(path); !why.empty() || !in_)
+      throw FileError(fmt::format("{}: {}", path.string(), why.empty() ? "cannot be opened" : why));
   }
   /// Words of the next line that has any; false at the end of the file.
   bool next() {
     words_.clear();
     while (words_.empty() && std::getline(in_, text_)) {
       ++line_;
+      if (line_ == 1 && text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);
       const std::string_view text = text_;
       for (std::size_t at = 0; at < text.size();) {
         const std::size_t first = text.find_first_not_of(" \t\r", at);
@@ -61,11 +62,14 @@ class GridFile {
   [[nodiscard]] double number(std::string_view word) const {
     double value = kUnset;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    validate(error == std::errc{} && end == word.data() + word.size() && std::isfinite(value),
-             "{}: '{}' is not a finite number (heights are plain numbers) mark missing ones with "
-             "the nodata_value of the header",
-             place(), word.substr(0, 40));
-    return value;
+    if (error == std::errc{} && end == word.data() + word.size() && std::isfinite(value))
+      return value;
+    const std::string odd = odd_characters(word);
+    throw InputError(fmt::format(
+        "{}: '{}' {}", place(), word.substr(0, 40),
+        odd.empty() ? "is not a finite number (heights are plain numbers) mark missing ones with "
+                      "the nodata_value of the header"
+                    : odd));
   }
 
  private:
@@ -86,8 +90,13 @@ struct Header {
   int columns = 0, rows = 0;
   double spacing = kUnset;
   std::array<double, 2> corner{kUnset, kUnset};  ///< middle of the lowest cell on the left
-  std::optional<double> no_data;
+  double no_data = kUnset;
 };
+
+/// What the format means where the header has no nodata_value.
+constexpr double kUsualNoData = -9999.0;
+// The shore of the Dead Sea lies at -430 m, no pit is deeper than -1000 m; Everest has 8850 m.
+constexpr double kLowestGround = -1100.0, kHighestGround = 9000.0;
 
 constexpr int kFewest = 2, kMost = 100000;
 
@@ -131,7 +140,7 @@ Header read_header(GridFile& file) {
   const bool centre_x = value.count("xllcenter") > 0, centre_y = value.count("yllcenter") > 0;
   h.corner = {need("xllcorner", "xllcenter") + (centre_x ? 0.0 : 0.5 * h.spacing),
               need("yllcorner", "yllcenter") + (centre_y ? 0.0 : 0.5 * h.spacing)};
-  if (value.count("nodata_value")) h.no_data = value.at("nodata_value");
+  h.no_data = value.count("nodata_value") ? value.at("nodata_value") : kUsualNoData;
   validate(more, "{}: ends after its header (it has no heights) export the terrain anew",
            file.name());
   return h;
@@ -161,6 +170,12 @@ std::string HeightField::name_place(double x, double y) const {
 HeightField read_height_field(const std::filesystem::path& path, const MapPlace& place) {
   GridFile file(path);
   const Header header = read_header(file);
+  // A digit and a blank are the least that a height takes; this also bounds the memory asked for.
+  const double least = 2.0 * header.columns * header.rows - 1.0;
+  validate(static_cast<double>(std::filesystem::file_size(path)) >= least,
+           "{}: the header says {} x {} heights, but the file has {} bytes (it was cut, or the "
+           "header is wrong) export the terrain anew",
+           file.name(), header.columns, header.rows, std::filesystem::file_size(path));
   HeightField f;
   f.corner = header.corner;
   f.spacing = header.spacing;
@@ -181,7 +196,13 @@ HeightField read_height_field(const std::filesystem::path& path, const MapPlace&
              file.place(), file.words().size(), f.columns);
     for (int i = 0; i < f.columns; ++i) {
       const double value = file.number(file.words()[i]);
-      const bool missing = header.no_data && value == *header.no_data;
+      const bool missing = value == header.no_data;
+      if (!missing && !(value > kLowestGround && value < kHighestGround))
+        throw InputError(fmt::format(
+            "{}: column {}: a height of {:g} m (no ground lies there; a mark for missing data that "
+            "the header does not tell, or heights in another unit) write 'nodata_value {:g}' into "
+            "the header if it is such a mark",
+            file.place(), i + 1, value, value));
       f.height[std::size_t(row) * f.columns + i] = missing ? kUnset : value;
       f.complete = f.complete && !missing;
     }

@@ -39,9 +39,9 @@ std::string summary(const ReportFacts& f, const ReportConfig& c) {
   else
     out = fmt::format(
         "**The section failed but its front did not pass the toe: the runout is 0 m** (front at x "
-        "= {:.1f} "
-        "m). ",
-        f.front);
+        "= {:.1f} m, {}). ",
+        f.front,
+        is_set(f.toe) ? fmt::format("{:.1f} m short of the toe", f.toe - f.front) : "no toe given");
   out += fmt::format(
       "{:.0f} m3 per metre of width ({:.0f} % of the materials that count) moved by "
       "more than {:g} m; ",
@@ -169,7 +169,9 @@ std::string definitions(const ReportConfig& c) {
 std::string report_markdown(const ReportInputs& in, const ReportConfig& c, const ReportFacts& f,
                             const DrawnFigures& drawn) {
   std::string out = fmt::format("# {}\n\n", cell(c.title)) + summary(f, c);
-  if (!f.warnings.empty()) out += "## Read this before using the numbers\n\n" + list(f.warnings);
+  std::vector<std::string> warnings = in.warnings;
+  warnings.insert(warnings.end(), f.warnings.begin(), f.warnings.end());
+  if (!warnings.empty()) out += "## Read this before using the numbers\n\n" + list(warnings);
   out += "## Key numbers\n\n" + key_numbers(f, c);
   out += "## What failed and what stayed\n\n" + movements(f.materials, "material", c.moved);
   if (!f.regions.empty()) out += movements(f.regions, "region", c.moved);

@@ -21,6 +21,7 @@ struct Decision {
   std::string why;                    ///< "settings changed (c_soft_ratio 1 -> 0.5)"
   std::string key;                    ///< empty while undecided
   std::optional<StageRecord> record;  ///< of the result to reuse
+  std::vector<std::string> warnings = {};  ///< of the result to reuse, and of the settings
 };
 
 /// Decides about one stage. `inputs` holds the content hash of every connected port that is known;

@@ -3,6 +3,7 @@
 #include "core/check.hpp"
 #include "workflows/engine/program_version.hpp"
 #include "workflows/engine/run_folder.hpp"
+#include "workflows/engine/warnings.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -56,7 +57,8 @@ std::map<std::string, std::string> input_hashes(
 /// which the result exists.
 StageRecord run_stage(const WorkflowStage& stage, const Decision& decision,
                       const std::map<std::string, std::string>& inputs, PortPaths paths,
-                      const RunOptions& options, const RunEvents& events) {
+                      const RunOptions& options, const RunEvents& events,
+                      std::vector<std::string> earlier) {
   const fs::path work = work_folder(options.folder, stage.name, decision.key);
   const fs::path final = result_folder(options.folder, stage.name, decision.key);
   if (decision.action != Action::resume) fs::remove_all(work);
@@ -73,9 +75,10 @@ StageRecord run_stage(const WorkflowStage& stage, const Decision& decision,
   RunContext context{.folder = work,
                      .threads = options.threads,
                      .progress = {},
-                     .provenance = {{"program", program_version()}, {"stage key", decision.key}}};
+                     .provenance = {{"program", program_version()}, {"stage key", decision.key}},
+                     .warnings = std::move(earlier)};
   for (const auto& [port, hash] : inputs)
-    context.provenance.emplace_back("sha256 of " + port, hash);
+    if (port != kWarningsInput) context.provenance.emplace_back("sha256 of " + port, hash);
   context.progress.stop_requested = options.stop_requested;
   context.progress.report = [&](double fraction, std::string_view text) {
     events.progress(stage.name, fraction, text);
@@ -98,7 +101,7 @@ StageRecord run_stage(const WorkflowStage& stage, const Decision& decision,
                      .inputs = inputs,
                      .outputs = {},
                      .publish = result.publish,
-                     .facts = result.facts,
+                     .facts = add_warnings(result.facts, result.warnings),
                      .program = program_version(),
                      .seconds = before + seconds_since(start)};
   for (const Port& port : stage.type.outputs) {
@@ -151,22 +154,29 @@ void run_stages(const Workflow& workflow, const RunOptions& options, const RunEv
     if (options.stop_requested && options.stop_requested->load())
       throw Interrupted(
           fmt::format("stopped before stage {}; the same command continues there.", stage.name));
-    const auto inputs = input_hashes(stage, results);
+    auto inputs = input_hashes(stage, results);
+    std::vector<std::string> earlier = earlier_warnings(workflow, stage, results);
+    add_to_inputs(inputs, stage, earlier);
     Decision decision = decide(options.folder, stage, inputs, previous_record(before, stage.name));
     const bool redo =
         std::find(options.redo.begin(), options.redo.end(), stage.name) != options.redo.end();
     if (redo && decision.action == Action::reuse) {
       decision.action = Action::run;
       decision.why = "asked for";
+      decision.record.reset();
     }
+    decision.warnings = warnings_of(stage, decision.record);
     events.decided(stage.name, decision);
+    events.warned(stage.name, decision.warnings);
     if (decision.action != Action::reuse) {
       const auto stage_start = Clock::now();
       decision.record =
           run_stage(stage, decision, inputs, input_paths(stage, workflow, options.folder, results),
-                    options, events);
+                    options, events, std::move(earlier));
       in_stages += seconds_since(stage_start);
+      decision.warnings = warnings_of(stage, decision.record);
       events.done(stage.name, decision.record->seconds);
+      events.warned(stage.name, decision.warnings);
     }
     lock.stages[stage.name] = *decision.record;
     if (decision.action != Action::reuse) write_lock(options.folder, lock);
@@ -202,9 +212,12 @@ std::vector<PlanLine> plan_workflow(const Workflow& workflow, const fs::path& fo
   std::vector<std::optional<StageRecord>> results;
   std::vector<PlanLine> plan;
   for (const WorkflowStage& stage : workflow.stages) {
-    plan.push_back({stage.name, decide(folder, stage, input_hashes(stage, results),
-                                       previous_record(before, stage.name))});
-    const Decision& decision = plan.back().decision;
+    auto inputs = input_hashes(stage, results);
+    add_to_inputs(inputs, stage, earlier_warnings(workflow, stage, results));
+    plan.push_back(
+        {stage.name, decide(folder, stage, inputs, previous_record(before, stage.name))});
+    Decision& decision = plan.back().decision;
+    decision.warnings = warnings_of(stage, decision.record);
     results.push_back(decision.action == Action::reuse ? decision.record : std::nullopt);
   }
   return plan;

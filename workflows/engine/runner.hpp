@@ -28,6 +28,10 @@ struct RunEvents {
       [](std::string_view, double, std::string_view) {};
   std::function<void(std::string_view stage, double seconds)> done = [](std::string_view, double) {
   };
+  /// What a user must know before using the result of a stage: once it is decided on, of its
+  /// settings and of a result that is used again; when it ends, of the new result.
+  std::function<void(std::string_view stage, const std::vector<std::string>&)> warned =
+      [](std::string_view, const std::vector<std::string>&) {};
 };
 
 /// Brings the run folder up to date with the workflow and writes DIR/result.json. Finished stages
