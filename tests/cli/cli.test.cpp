@@ -1,7 +1,9 @@
 #include "tests/support/scratch.hpp"
 #include "tests/support/paths.hpp"
 
+#include <pty.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 
@@ -21,6 +23,31 @@ Outcome call(const Scratch& scratch, const std::string& arguments) {
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
           read_text_file(scratch / "out.txt"), read_text_file(scratch / "err.txt")};
+}
+
+/// What a terminal of so many columns shows of a command.
+std::string on_terminal(const Scratch& scratch, const std::string& arguments,
+                        unsigned short columns) {
+  const winsize size{.ws_row = 24, .ws_col = columns, .ws_xpixel = 0, .ws_ypixel = 0};
+  int master = -1;
+  const pid_t child = ::forkpty(&master, nullptr, nullptr, &size);
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    const std::string command =
+        "cd '" + scratch.path().string() + "' && exec " FLOWSLIDE_BINARY " " + arguments;
+    ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+    ::_exit(127);
+  }
+  std::string text;
+  char block[4096];
+  // A terminal whose last process ends gives an error, not an end.
+  for (ssize_t n = 0; (n = ::read(master, block, sizeof block)) > 0;)
+    text.append(block, static_cast<std::size_t>(n));
+  ::close(master);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  CHECK(WIFEXITED(status));
+  return text;
 }
 
 /// One element of 1 m x 1 m at rest: enough to import.
@@ -230,6 +257,29 @@ TEST_CASE("warnings of an import are on the terminal, in the result, and told ag
   CHECK_THAT(o.out, Contains("up to date, 1 warning:"));
   CHECK_THAT(o.err, Contains("total vertical stress"));
   CHECK_THAT(call(scratch, "check w.yaml").out, Contains("1 stages, 1 warning"));
+}
+
+TEST_CASE("lines fit the terminal", "[cli]") {
+  const Scratch scratch;
+  write_model(scratch);
+  scratch.write("stress.out", "0.1 -10000 -20000 0\n");
+  REQUIRE(run(scratch, shake()).code == 0);
+  const std::string run_again =
+      "run w.yaml --out out --set stages.shake.with.sigma_zz.rule=elastic --set "
+      "stages.shake.with.sigma_zz.nu=0.3";
+  for (const unsigned short columns : {40, 60, 80, 120}) {
+    CAPTURE(columns);
+    const std::string text = on_terminal(scratch, run_again + " --dry-run", columns) +
+                             on_terminal(scratch, "run w.yaml --out out", columns);
+    CHECK_THAT(text, Contains("warning: shake: gravity:") && Contains("settings changed"));
+    std::size_t longest = 0, width = 0;
+    for (const char c : text) {
+      width = c == '\n' || c == '\r' ? 0 : width + 1;
+      longest = std::max(longest, width);
+    }
+    CHECK(longest <= columns);
+    if (columns > 60) CHECK(longest > columns / 2);  // the width is used
+  }
 }
 
 TEST_CASE("check reads the files that the workflow names", "[cli]") {
