@@ -242,3 +242,14 @@ TEST_CASE("settings that do not fit the mesh or each other are refused", "[trans
   CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.transfer = {.when = TransferWhen::at, .at = 7.0}; }),
                     Catch::Contains("outside the record"));
 }
+
+TEST_CASE("Without windows the whole liquefiable soil is one") {
+  ZoneConfig config = column_config();
+  const auto named = windows_or_all(config);
+  CHECK(named.size() == config.windows.size());
+  config.windows.clear();
+  const auto all = windows_or_all(config);
+  REQUIRE(all.size() == 1);
+  CHECK(all.at("all").contains(-1e9));
+  CHECK(all.at("all").contains(1e9));
+}

@@ -3,7 +3,10 @@
 #include "core/check.hpp"
 #include "tests/support/scratch.hpp"
 
+#include <functional>
+
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 using namespace flowslide;
 using Catch::Contains;
@@ -340,7 +343,7 @@ TEST_CASE("Terrain lies under the dam and has heights there") {
   CHECK(ask_about("level.asc", there).errors.empty());
   CHECK(ask_about("level.asc", there).warnings.empty());
   CHECK_THAT(ask_about("level.asc", {0.0, 0.0}).errors,
-             Contains("x = 0 to 120 m lies 7000005 m south of the map of level.asc"));
+             Contains("x = 0 to 120 m lies 499885 m west and 6999965 m south of the map"));
   CHECK_THAT(ask_about("level.asc", {500600.0, 7000100.0}).warnings, Contains("ends 290 m"));
   CHECK_THAT(ask_about("level.asc", there, 50.0).errors, Contains("below the terrain"));
   CHECK_THAT(ask_about("level.asc", there, 150.0).warnings, Contains("`level`"));

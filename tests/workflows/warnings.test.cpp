@@ -5,6 +5,9 @@
 #include "workflows/engine/runner.hpp"
 
 #include <catch2/catch.hpp>
+#include <map>
+
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 using namespace flowslide;

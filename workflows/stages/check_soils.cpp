@@ -7,6 +7,8 @@
 #include <cmath>
 #include <set>
 
+#include <fmt/format.h>
+
 /// Numbers of soils and water that cannot be, or are odd.
 namespace flowslide {
 namespace {

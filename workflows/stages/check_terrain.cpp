@@ -4,6 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
 
 namespace flowslide {
 namespace {
@@ -25,26 +30,34 @@ Beyond beyond(const mpm::HeightField& f, double x, double y) {
           out(north, f.corner[1], f.corner[1] + (f.rows - 1) * f.spacing)};
 }
 
+/// "512276 m west and 30 m south of"
 std::string direction(const Beyond& b) {
-  const bool sideways = std::abs(b.east) >= std::abs(b.north);
-  if (sideways)
-    return fmt::format("{:.0f} m {} of", std::abs(b.east), b.east < 0 ? "west" : "east");
-  return fmt::format("{:.0f} m {} of", std::abs(b.north), b.north < 0 ? "south" : "north");
+  std::vector<std::string> parts;
+  if (b.east != 0.0)
+    parts.push_back(fmt::format("{:.0f} m {}", std::abs(b.east), b.east < 0 ? "west" : "east"));
+  if (b.north != 0.0)
+    parts.push_back(fmt::format("{:.0f} m {}", std::abs(b.north), b.north < 0 ? "south" : "north"));
+  return fmt::format("{} of", fmt::join(parts, " and "));
 }
 
 /// False if the soil does not lie on the map.
 bool check_cover(const mpm::HeightField& f, const Extent& e, double width, Findings& found) {
-  Beyond worst;
+  Beyond worst, least{std::numeric_limits<double>::infinity(), 0.0};
   for (const double x : {e.left, e.right})
-    for (const double y : {0.0, width})
-      if (const Beyond b = beyond(f, x, y); b.size() > worst.size()) worst = b;
+    for (const double y : {0.0, width}) {
+      const Beyond b = beyond(f, x, y);
+      if (b.size() > worst.size()) worst = b;
+      if (b.size() < least.size()) least = b;
+    }
   if (!(worst.size() > 0.5 * f.spacing)) return true;
+  const bool apart = least.size() > 0.0;
   found.errors.push_back(fmt::format(
-      "ground.terrain: the soil at x = {:g} to {:g} m lies {} the map of {}, which spans {:.8g} to "
+      "ground.terrain: the soil at x = {:g} to {:g} m lies {}{} the map of {}, which spans {:.8g} "
+      "to "
       "{:.8g} and {:.8g} to {:.8g} m (the ground under it would be made up) check origin, heading "
       "and the unit of the map",
-      e.left, e.right, direction(worst), f.source, f.corner[0],
-      f.corner[0] + (f.columns - 1) * f.spacing, f.corner[1],
+      e.left, e.right, apart ? "" : "up to ", direction(apart ? least : worst), f.source,
+      f.corner[0], f.corner[0] + (f.columns - 1) * f.spacing, f.corner[1],
       f.corner[1] + (f.rows - 1) * f.spacing));
   return false;
 }
