@@ -125,8 +125,13 @@ void Display::plan(std::string_view stage, const Decision& decision) const {
                                                             : "runs: ";
   std::string why = decision.why;
   const std::size_t n = decision.warnings.size();
-  if (n > 0 && decision.action == Action::reuse)
-    why += fmt::format(", {} warning{}:", n, n == 1 ? "" : "s");
+  if (n > 0 && decision.action == Action::reuse) {
+    const bool follow = std::any_of(decision.warnings.begin(), decision.warnings.end(),
+                                    [&](const std::string& text) {
+                                      return warned_.count(fmt::format("{}: {}", stage, text)) == 0;
+                                    });
+    why += fmt::format(", {} warning{}{}", n, n == 1 ? "" : "s", follow ? ":" : " (above)");
+  }
   fmt::print("{}\n", cut(fmt::format("{:<{}} {}{}", stage, kNameWidth, verb, why), columns_));
 }
 

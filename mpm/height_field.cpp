@@ -190,6 +190,8 @@ HeightField read_height_field(const std::filesystem::path& path, const MapPlace&
              "{}: ends after {} rows of heights (the header says nrows {}) the file was cut; copy "
              "or export it again",
              file.place(), f.rows - 1 - row, f.rows);
+    if (std::ssize(file.words()) != f.columns)  // a word that is no number says more
+      for (const std::string_view word : file.words()) (void)file.number(word);
     validate(std::ssize(file.words()) == f.columns,
              "{}: {} heights in this line (the header says ncols {}) write every row of the grid "
              "on a line of its own",

@@ -86,9 +86,10 @@ std::map<std::int32_t, double> density_of_material(const TransferRuleConfig& con
 
 }  // namespace
 
-ZoneParts zone_parts(const QuadMesh& mesh, const TransferRuleConfig& config) {
+ZoneParts zone_parts(const QuadMesh& mesh, const TransferRuleConfig& config, bool shaken) {
   ZoneParts parts = divide(mesh, config);
   check_windows(mesh, parts, config.windows);
+  if (shaken) (void)element_masses(mesh, parts.section, density_of_material(config));
   return parts;
 }
 

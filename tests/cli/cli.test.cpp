@@ -1,5 +1,5 @@
-#include "tests/support/scratch.hpp"
 #include "tests/support/paths.hpp"
+#include "tests/support/scratch.hpp"
 
 #include <pty.h>
 #include <sys/wait.h>

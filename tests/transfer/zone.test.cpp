@@ -243,13 +243,13 @@ TEST_CASE("settings that do not fit the mesh or each other are refused", "[trans
                     Catch::Contains("outside the record"));
 }
 
-TEST_CASE("Without windows the whole liquefiable soil is one") {
+TEST_CASE("Without windows the depth is that of the whole liquefiable soil", "[transfer]") {
+  const Column column({7.0, 4.0, 6.0});
   ZoneConfig config = column_config();
-  const auto named = windows_or_all(config);
-  CHECK(named.size() == config.windows.size());
   config.windows.clear();
-  const auto all = windows_or_all(config);
-  REQUIRE(all.size() == 1);
-  CHECK(all.at("all").contains(-1e9));
-  CHECK(all.at("all").contains(1e9));
+  const LiquefactionZone zone = column.find(config);
+  CHECK(zone.window_names == std::vector<std::string>{"all"});
+  const LiquefactionZone two = column.find(column_config());
+  CHECK(zone.window_depth_max.at(0) == std::max(two.window_depth_max[0], two.window_depth_max[1]));
+  CHECK(zone.window_depth_max.at(0) > 0.0);
 }

@@ -204,7 +204,7 @@ TEST_CASE("Densities of one soil agree between stages") {
 
 TEST_CASE("Soils and water of the finite elements have plausible numbers") {
   FemConfig sound;
-  sound.water = WaterConfig{.table = {{0.0, 20.0}}};
+  sound.water.emplace().table = {{0.0, 20.0}};
   FemMaterialConfig m;
   m.density = 1870.0;
   m.void_ratio = 0.99;
@@ -243,7 +243,7 @@ TEST_CASE("Soils and water of the finite elements have plausible numbers") {
 TEST_CASE("Water stands in the section") {
   const auto at = [](double level) {
     FemConfig c;
-    c.water = WaterConfig{.table = {{0.0, level}, {120.0, 0.0}}};
+    c.water.emplace().table = {{0.0, level}, {120.0, 0.0}};
     Findings found;
     check_water(c, dam().mesh, found);
     return answer(found);
@@ -252,7 +252,7 @@ TEST_CASE("Water stands in the section") {
   CHECK_THAT(at(1e9).errors, Contains("more than the section is high"));
   CHECK_THAT(at(35.0).warnings, Contains("5 m above the highest point"));
   FemConfig dry;
-  dry.water = WaterConfig{.table = {{0.0, -5.0}}};
+  dry.water.emplace().table = {{0.0, -5.0}};
   Findings found;
   check_water(dry, dam().mesh, found);
   CHECK_THAT(answer(found).warnings, Contains("cannot liquefy"));
@@ -350,4 +350,32 @@ TEST_CASE("Terrain lies under the dam and has heights there") {
   CHECK_THAT(ask_about("gap.asc", {500250.0, 7000100.0}).errors,
              Contains("the terrain has no height"));
   CHECK_THAT(ask_about("gap.asc", {500400.0, 7000100.0}).warnings, Contains("60 of 3000 heights"));
+}
+
+TEST_CASE("Every element of a transfer has a material, and soil that liquefies a law for it") {
+  ZoneConfig zone;
+  zone.liquefiable = {1};
+  zone.zone = ZoneExtent::automatic;
+  const auto with = [&](auto change) {
+    MapConfig c = map_config();
+    c.materials["tailings"].liquefied = ResidualStrength::Params{.youngs_modulus = 20e6,
+                                                                 .poisson_ratio = 0.45,
+                                                                 .strength = {},
+                                                                 .soft_strength = {}};
+    Findings control, found;
+    check_map_tags(c, dam(), zone, control);
+    CHECK(control.errors.empty());
+    CHECK(control.warnings.empty());
+    change(c);
+    check_map_tags(c, dam(), zone, found);
+    return answer(found);
+  };
+  CHECK_THAT(with([](MapConfig& c) { c.materials.erase("dam"); }).errors,
+             Contains("element 11 has the material tag 2"));
+  CHECK(with([](MapConfig& c) {
+          c.materials.erase("dam");
+          c.box = {0.0, 100.0, 0.0, 30.0};
+        }).errors.empty());
+  CHECK_THAT(with([](MapConfig& c) { c.materials["tailings"].liquefied.reset(); }).warnings,
+             Contains("tag 1 can liquefy"));
 }

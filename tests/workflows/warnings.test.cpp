@@ -4,9 +4,9 @@
 #include "tests/workflows/sample_stages.hpp"
 #include "workflows/engine/runner.hpp"
 
-#include <catch2/catch.hpp>
 #include <map>
 
+#include <catch2/catch.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -147,7 +147,7 @@ TEST_CASE("Warnings about settings are told before the stage runs, and once with
 
 TEST_CASE("A stage that reads warnings runs again when they change") {
   const Bench bench;
-  bench.run("1");
+  CHECK(bench.run("1").why.at("b") == "no result yet");
   CHECK(bench.run("2").why.at("b") == "up to date");  // control: same number, nothing to tell
   CHECK(bench.run("20").why.at("b") == "input changed (warnings)");
   const auto key = bench.result()["stages"]["b"]["key"].get<std::string>().substr(0, 16);
@@ -166,8 +166,11 @@ TEST_CASE("Errors of a look at the files stand at the stage's settings, one to a
 
 TEST_CASE("An option for a stage that is not there names the nearest") {
   const Bench bench;
-  (void)bench.load("1");
-  const std::vector<std::string> option{"stages.bb.with.value=1"};
-  CHECK_THROWS_WITH(load_workflow(bench.scratch / "w.yaml", option, bench.types),
-                    Contains("no such stage") && Contains("Did you mean 'b'?"));
+  bench.scratch.write("w.yaml", "schema: 1\nname: w\nstages:\n  flow: {uses: sample.odd}\n");
+  const std::vector<std::string> option{"stages.flw.with.value=1"}, far{"stages.x.with.value=1"};
+  const auto load = [&](const std::vector<std::string>& set) {
+    return load_workflow(bench.scratch / "w.yaml", set, bench.types);
+  };
+  CHECK_THROWS_WITH(load(option), Contains("no such stage") && Contains("Did you mean 'flow'?"));
+  CHECK_THROWS_WITH(load(far), Contains("no such stage") && Contains("Known: flow."));
 }

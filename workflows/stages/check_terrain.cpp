@@ -97,6 +97,11 @@ void check_heights(const mpm::HeightField& f, const FlowConfig& flow, const Soil
 
 void check_terrain(const FlowConfig& flow, const Soil& soil, Findings& found) {
   if (!flow.ground.terrain) return;
+  if (!flow.extrude)
+    found.errors.emplace_back(
+        "ground.terrain: is a surface in three dimensions, but there is no `extrude` (a run in "
+        "plane "
+        "strain has no use for it) give ground.surface, or extrude");
   const TerrainSettings& t = *flow.ground.terrain;
   const mpm::HeightField f = mpm::read_height_field(t.file.path, {t.origin, t.heading, t.level});
   const auto missing =

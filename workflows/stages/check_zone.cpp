@@ -67,6 +67,38 @@ void compare_transfer_rules(const StopAtTransferConfig& stop, const ZoneConfig& 
         changes));
 }
 
+void check_map_tags(const MapConfig& map, const SectionMesh& section,
+                    const std::optional<ZoneConfig>& zone, Findings& found) {
+  std::map<int, const MapMaterial*> of_tag;
+  for (const auto& [name, m] : map.materials)
+    for (const int tag : m.tags) of_tag[tag] = &m;
+  const QuadMesh& mesh = section.mesh;
+  for (std::size_t e = 0; e < mesh.num_elements(); ++e) {
+    const Vec2 c = centroid(corners(mesh, mesh.nodes, e));
+    const auto& b = map.box;
+    if (b.size() == 4 && !(c[0] > b[0] && c[0] < b[1] && c[1] > b[2] && c[1] < b[3])) continue;
+    if (of_tag.count(mesh.element_material[e]) > 0) continue;
+    found.errors.push_back(fmt::format(
+        "materials: element {} has the material tag {}, which no material lists (its mass and law "
+        "are unknown) add the tag to the tags of a material, or leave the element outside the box",
+        mesh.element_tags[e], mesh.element_material[e]));
+    break;
+  }
+  if (!zone) return;
+  for (const int tag : zone->liquefiable) {
+    const auto at = of_tag.find(tag);
+    if (at == of_tag.end() || at->second->liquefied) continue;
+    const std::string problem = fmt::format(
+        "materials: soil with the tag {} can liquefy (transfer.zone), but has no law for it", tag);
+    if (zone->zone == ZoneExtent::all)
+      found.errors.push_back(problem +
+                             " (its strength would be that of intact soil) add liquefied: "
+                             "{youngs_modulus: ..., poisson_ratio: ...} to it");
+    else
+      found.warnings.push_back(problem + ": should it liquefy, the transfer will be refused.");
+  }
+}
+
 void check_size(const QuadMesh& mesh, Findings& found) {
   Extent e;
   const auto add = [&](Vec2 p) {

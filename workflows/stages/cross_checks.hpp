@@ -9,6 +9,7 @@
 
 #include <limits>
 #include <map>
+#include <optional>
 
 /// Settings against each other and against the section, before anything runs. What cannot be is an
 /// error, what is odd a warning; limits and reasons in docs/guide/checks.md.
@@ -51,6 +52,9 @@ double physical_memory();
 /// Density, stiffness and tags of the materials of a transfer.
 void check_map_materials(const MapConfig& map, const SectionMesh& section, const Soil& soil,
                          Findings& found);
+/// Elements inside the box without a material, and soil that can liquefy without a law for it.
+void check_map_tags(const MapConfig& map, const SectionMesh& section,
+                    const std::optional<ZoneConfig>& zone, Findings& found);
 /// Densities by tag [kg/m3] of another stage against those of a transfer.
 void compare_densities(const MapConfig& map, const std::map<int, double>& other,
                        std::string_view stage, Findings& found);

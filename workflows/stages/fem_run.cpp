@@ -63,13 +63,15 @@ struct FemRun {
     Preview p = merged(in);
     check_fem_soils(config, found);
     p.stop = config.stop_at_transfer;
+    p.shakes = true;
+    p.end = config.end;
     if (!p.section) return p;
     check_water(config, p.section->mesh, found);
     for (const MaterialName& m : p.section->materials)
       if (const auto at = config.materials.find(m.name); at != config.materials.end())
         p.density[m.tag] = at->second.density;
     (void)fem::build_model(*p.section, config);  // names, sets and ends against the mesh
-    if (config.stop_at_transfer) (void)zone_parts(p.section->mesh, *config.stop_at_transfer);
+    if (config.stop_at_transfer) (void)zone_parts(p.section->mesh, *config.stop_at_transfer, true);
     return p;
   }
   static StageResult run(const RunContext& context, const Config& config, const Inputs& in,

@@ -33,6 +33,7 @@ struct ImportOpenSees {
     SectionMesh section;
     section.mesh = std::move(import.mesh);
     Preview p;
+    p.shakes = config.shaking.has_value();
     p.section = std::make_shared<const SectionMesh>(std::move(section));
     found.warnings = std::move(import.warnings);
     check_size(p.section->mesh, found);

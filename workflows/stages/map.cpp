@@ -37,6 +37,7 @@ struct MapStage {
     if (!p.section || config.compat != Compat::none) return p;
     const Soil soil = soil_of(*p.section, config);
     check_map_materials(config, *p.section, soil, found);
+    check_map_tags(config, *p.section, p.zone, found);
     check_memory(config, soil, kUnset, physical_memory(), found);
     compare_densities(config, p.density, "fem.run", found);
     if (!p.zone) return p;

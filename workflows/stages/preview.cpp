@@ -8,6 +8,8 @@ Preview merged(const Previews& inputs) {
     const auto* p = std::any_cast<Preview>(&value);
     if (!p) continue;
     if (!all.section) all.section = p->section;
+    all.shakes = all.shakes || p->shakes;
+    if (!all.end) all.end = p->end;
     all.density.insert(p->density.begin(), p->density.end());
     if (!all.stop) all.stop = p->stop;
     if (!all.zone) all.zone = p->zone;

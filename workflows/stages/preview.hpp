@@ -17,6 +17,8 @@ namespace flowslide {
 
 struct Preview {
   std::shared_ptr<const SectionMesh> section;  ///< null where only a run can tell
+  bool shakes = false;                         ///< the history has more than the state at rest
+  std::optional<double> end;                   ///< of the shaking, if settings say it [s]
   std::map<int, double> density;               ///< by material tag, of the finite elements [kg/m3]
   std::optional<StopAtTransferConfig> stop;
   std::optional<ZoneConfig> zone;

@@ -35,6 +35,15 @@ struct ReportStage {
   };
   static std::any preview(const Config& config, const Previews& in, Findings& found) {
     Preview p = merged(in);
+    if (p.flow && p.flow->extrude)
+      found.errors.emplace_back(
+          "the runout has three dimensions (the report draws sections) take this stage out of the "
+          "workflow, and `flowslide convert` mpm.h5 for ParaView, docs/guide/valley.md");
+    for (const auto& [name, region] : config.regions)
+      if (region.outline.size() < 3)
+        found.errors.push_back(fmt::format(
+            "regions.{}: {} corners (a region needs three or more) give its outline", name,
+            region.outline.size()));
     if (p.flow && config.toe &&
         std::abs(*config.toe - p.flow->toe) > 1e-9 * (1.0 + std::abs(p.flow->toe)))
       found.warnings.push_back(fmt::format(

@@ -49,9 +49,14 @@ struct ZoneStage {
     check_strength(config.strength, found);
     if (p.stop) compare_transfer_rules(*p.stop, config, found);
     p.zone = config;
+    if (p.end && config.transfer.at && *config.transfer.at > *p.end * (1.0 + 1e-9))
+      found.errors.push_back(fmt::format(
+          "at: {:g} s, but the shaking ends at {:g} s (there is no state to transfer) choose an "
+          "earlier time or a later `end` of fem.run",
+          *config.transfer.at, *p.end));
     if (!p.section) return p;
     check_pond(config, p.section->mesh, found);
-    (void)zone_parts(p.section->mesh, config);
+    (void)zone_parts(p.section->mesh, config, p.shakes);
     return p;
   }
   static StageResult run(const RunContext& context, const Config& config, const Inputs& in,
