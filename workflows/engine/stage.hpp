@@ -123,6 +123,12 @@ struct StageType {
 
 namespace detail {
 
+template <class S>
+inline constexpr bool kReadsWarnings = false;
+template <class S>
+requires requires { S::reads_warnings; }
+inline constexpr bool kReadsWarnings<S> = S::reads_warnings;
+
 /// A FileError of canonical_text, "path.of.setting: why", at the place where the file is named.
 FileError locate_file(const YamlNode& settings, std::string_view text);
 
@@ -152,12 +158,12 @@ StageType stage_type() {
                  .doc = std::string(S::doc),
                  .version = S::version,
                  .checkpoints = S::checkpoints,
-                 .reads_warnings = requires {requires S::reads_warnings;
-}
-, .inputs = detail::list_ports<typename S::Inputs>(),
-  .outputs = detail::list_ports<typename S::Outputs>(), .prepare = {},
-  .json_schema = json_schema<typename S::Config>, .manual = manual_page<typename S::Config>
-};  // namespace flowslide
+                 .reads_warnings = detail::kReadsWarnings<S>,
+                 .inputs = detail::list_ports<typename S::Inputs>(),
+                 .outputs = detail::list_ports<typename S::Outputs>(),
+                 .prepare = {},
+                 .json_schema = json_schema<typename S::Config>,
+                 .manual = manual_page<typename S::Config>};
   type.prepare = [](const std::optional<YamlNode>& with, const YamlNode& stage) {
     using Config = typename S::Config;
     const Config config = [&] {
