@@ -1,6 +1,6 @@
 #include "cli/command.hpp"
 #include "cli/inspect_run.hpp"
-#include "core/files.hpp"
+#include "core/unreadable.hpp"
 #include "importers/recorder_text.hpp"
 #include "model/field_store.hpp"
 #include "model/history.hpp"
@@ -135,7 +135,11 @@ Json inspect_workflow(const fs::path& path) {
   try {
     const Workflow workflow = load_workflow(path, {}, all_stages());
     j["name"] = workflow.name;
-    for (const WorkflowStage& stage : workflow.stages) j["stages"][stage.name] = stage.type.name;
+    for (const WorkflowStage& stage : workflow.stages) {
+      j["stages"][stage.name] = stage.type.name;
+      for (const std::string& text : stage.warnings)
+        j["warnings"].push_back(fmt::format("{}: {}", stage.name, text));
+    }
   } catch (const Error& e) {
     j["problems"].push_back(e.what());
   }
@@ -159,7 +163,8 @@ Json inspect_recorder(const fs::path& path) {
 Json inspect(const fs::path& path) {
   std::error_code error;
   if (fs::is_directory(path, error)) return inspect_run(path);
-  expect_regular_file(path);
+  if (const std::string why = why_unreadable(path); !why.empty())
+    throw FileError(fmt::format("{}: {}", path.string(), why));
   std::array<char, 8> head{};
   std::ifstream(path, std::ios::binary).read(head.data(), head.size());
   constexpr std::string_view kHdf5 = "\x89HDF\r\n\x1a\n";

@@ -1,5 +1,6 @@
 #include "cli/command.hpp"
 #include "cli/short_waits.hpp"
+#include "config/yaml.hpp"
 #include "core/check.hpp"
 #include "workflows/engine/program_version.hpp"
 
@@ -9,10 +10,13 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <iostream>
 #include <new>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <unistd.h>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -44,6 +48,26 @@ void correct_exit_code() {
   if (!main_has_ended) ::_exit(kNoResources);
 }
 
+void flush_output() {
+  std::cout.flush();
+  if (std::fflush(stdout) != 0 || std::ferror(stdout))
+    throw flowslide::FileError("standard output: cannot be written (the disk may be full)");
+}
+
+/// A first word that is no command, with the nearest that is one.
+void check_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  const std::string word = argv[1];
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), word) != names.end()) return;
+  const auto near = flowslide::nearest(word, names);
+  throw flowslide::InputError(fmt::format("there is no command '{}'. {}", word,
+                                          near
+                                              ? fmt::format("Did you mean 'flowslide {}'?", *near)
+                                              : fmt::format("Known: {}.", fmt::join(names, ", "))));
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"From an earthquake record to the runout of a liquefied tailings dam", "flowslide"};
   app.set_version_flag("--version", flowslide::program_version());
@@ -60,16 +84,20 @@ int run(int argc, char** argv) {
   flowslide::cli::add_bench(app, action);
   flowslide::cli::add_schema(app, action);
   flowslide::cli::add_docs(app, action);
+  check_command(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+    if (e.get_exit_code() == 0) {  // --help, --version
+      app.exit(e);
+      flush_output();
+      return 0;
+    }
     print_errors(fmt::format("{} ('flowslide --help' lists what there is)", e.what()));
     return 2;
   }
   const int code = action();
-  if (std::fflush(stdout) != 0 || std::ferror(stdout))
-    throw flowslide::FileError("standard output: cannot be written (the disk may be full)");
+  flush_output();
   return code;
 }
 
@@ -80,6 +108,13 @@ int run_and_report(int argc, char** argv) {
     std::fflush(stdout);
     print_errors(e.what());
     return e.exit_code();
+  } catch (const std::filesystem::filesystem_error& e) {
+    print_errors(fmt::format("{}: {}", e.path1().string(), e.code().message()));
+    return 4;
+  } catch (const std::system_error& e) {
+    // the only other calls that throw these write to the terminal, a pipe or a file behind it
+    print_errors(fmt::format("standard output: cannot be written ({})", e.code().message()));
+    return 4;
   } catch (const std::bad_alloc&) {
     print_errors(
         "out of memory (the model is larger than this machine can hold). Use a coarser "

@@ -47,22 +47,42 @@ void check_redo(const RunArguments& args, const Workflow& workflow) {
   }
 }
 
-void print_result(const fs::path& folder) {
+/// A runout of 0 says that nothing passed the toe; how far the front stopped before it says whether
+/// the toe is the right one.
+std::string no_runout(const nlohmann::ordered_json& result) {
+  const auto front = result.find("front_m"), toe = result.find("toe_m");
+  if (front == result.end() || toe == result.end() || !front->is_number() || !toe->is_number())
+    return "0 m";
+  return fmt::format("0 m (the front, at x = {:.4g} m, is {:.4g} m short of the toe)",
+                     front->get<double>(), toe->get<double>() - front->get<double>());
+}
+
+void print_result(const fs::path& folder, std::size_t warnings) {
   const SealedJson file = read_sealed(folder / kResultFile);
   if (!file.json)
     throw FileError(
         fmt::format("{}: cannot be read back ({})", (folder / kResultFile).string(), file.problem));
-  const Json& result = *file.json;
-  const auto line = [&](const char* key, const char* text, const char* unit) {
+  const nlohmann::ordered_json& result = *file.json;
+  const auto line = [&](const std::string& key, const std::string& text, const char* unit) {
     if (const auto at = result.find(key); at != result.end() && at->is_number())
       fmt::print("{:<30} {:.4g}{}{}\n", text, at->get<double>(), *unit ? " " : "", unit);
   };
-  line("runout_m", "runout", "m");
-  line("liquefaction_depth_pond_m", "liquefaction depth, pond", "m");
-  line("liquefaction_depth_crest_m", "liquefaction depth, crest", "m");
+  const auto runout = result.find("runout_m");
+  if (runout != result.end() && runout->is_number() && runout->get<double>() == 0.0)
+    fmt::print("{:<30} {}\n", "runout", no_runout(result));
+  else
+    line("runout_m", "runout", "m");
+  constexpr std::string_view depth = "liquefaction_depth_";
+  for (const auto& [name, value] : result.items())
+    if (name.starts_with(depth) && name.ends_with("_m"))
+      line(name,
+           fmt::format("liquefaction depth, {}",
+                       name.substr(depth.size(), name.size() - depth.size() - 2)),
+           "m");
   line("transfer_time_s", "transfer at", "s");
   line("mass_error", "mass error", "");
   line("energy_error", "energy error", "");
+  if (warnings > 0) fmt::print("{:<30} {}, see above\n", "warnings before use", warnings);
   fmt::print("{:<30} {}\n", "result", (folder / kResultFile).string());
 }
 
@@ -73,6 +93,8 @@ int run(const RunArguments& args) {
   const Workflow workflow = load_workflow(args.file, args.overrides, all_stages());
   check_redo(args, workflow);
   Display display(::isatty(STDOUT_FILENO) == 1);
+  for (const WorkflowStage& stage : workflow.stages)
+    display.events().warned(stage.name, stage.warnings);
   if (args.dry_run) {
     for (const PlanLine& line : plan_workflow(workflow, folder)) {
       for (const std::string& problem : line.decision.problems)
@@ -92,7 +114,7 @@ int run(const RunArguments& args) {
     display.close();
     throw;
   }
-  print_result(folder);
+  print_result(folder, display.num_warnings());
   return 0;
 }
 
@@ -126,7 +148,7 @@ int report(const std::string& folder, const std::vector<std::string>& allowed_pr
                     lock->file));
   Display display(::isatty(STDOUT_FILENO) == 1);
   run_workflow(workflow, options, display.events());
-  print_result(folder);
+  print_result(folder, display.num_warnings());
   return 0;
 }
 
@@ -168,7 +190,16 @@ void add_check(CLI::App& app, Command& action) {
   command->callback([args, &action] {
     action = [args] {
       const Workflow workflow = load_workflow(args->file, args->overrides, all_stages());
-      fmt::print("{}: {} stages, no problem found\n", args->file, workflow.stages.size());
+      std::size_t warnings = 0;
+      for (const WorkflowStage& stage : workflow.stages)
+        for (const std::string& text : stage.warnings) {
+          print_warning(fmt::format("{}: {}", stage.name, text));
+          ++warnings;
+        }
+      fmt::print("{}: {} stages, {}\n", args->file, workflow.stages.size(),
+                 warnings == 0   ? "no problem found"
+                 : warnings == 1 ? "1 warning"
+                                 : fmt::format("{} warnings", warnings));
       return 0;
     };
   });

@@ -1,4 +1,5 @@
 #include "config/yaml_data.hpp"
+#include "core/unreadable.hpp"
 
 #include "core/files.hpp"
 
@@ -54,6 +55,16 @@ std::string problem_of(unsigned char byte) {
   }
 }
 
+constexpr std::string_view kNonBreaking = "\xC2\xA0";
+
+/// Whether blanks at the end of `before` would be indentation, or part a key or a sign of a list
+/// from what follows.
+bool is_structure(std::string_view before) {
+  const std::size_t last = before.find_last_not_of(' ');
+  if (last == std::string_view::npos) return true;
+  return std::string_view("\n:-,[{").find(before[last]) != std::string_view::npos;
+}
+
 }  // namespace
 
 Where Source::at(int line, int column) const {
@@ -73,7 +84,8 @@ std::string read_text(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path, ignored))
     throw FileError(fmt::format("{}: is a folder (a YAML file is expected) name the file in it",
                                 path.string()));
-  if (std::filesystem::exists(path, ignored)) expect_regular_file(path);
+  if (const std::string why = why_unreadable(path); !why.empty())
+    throw FileError(fmt::format("{}: {}", path.string(), why));
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   if (!in)
@@ -117,6 +129,10 @@ std::string clean_text(std::string_view bytes, const Source& source) {
                      fmt::format("byte 0x{:02x} is not UTF-8 text (the file may be in Latin-1) "
                                  "save it as UTF-8",
                                  c));
+    if (bytes.substr(i, length) == kNonBreaking && is_structure(text))
+      throw error_at(source.at_byte(bytes, i), "",
+                     "non-breaking space where YAML needs a blank (it comes from a word processor "
+                     "or a web page, and looks like one) replace it by a blank");
     text.append(bytes.substr(i, length));
     i += length;
   }

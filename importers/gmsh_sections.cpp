@@ -1,5 +1,6 @@
 #include "importers/gmsh_sections.hpp"
 
+#include "core/odd_characters.hpp"
 #include "core/units.hpp"
 #include "importers/text_lines.hpp"
 
@@ -40,12 +41,11 @@ class Lines {
     while (!rest.empty()) {
       double value = 0.0;
       std::size_t length = 0;
-      if (!parse_number(rest, value, length) || !std::isfinite(value))
-        fail(fmt::format("'{}' is not {}", line_, what));
+      if (!parse_number(rest, value, length) || !std::isfinite(value)) fail(no_numbers(what));
       values_.push_back(value);
       rest.remove_prefix(length);
       const auto first = rest.find_first_not_of(" \t");
-      if (first == 0) fail(fmt::format("'{}' is not {}", line_, what));
+      if (first == 0) fail(no_numbers(what));
       rest.remove_prefix(first == std::string_view::npos ? rest.size() : first);
     }
     if (values_.size() < least)
@@ -68,6 +68,12 @@ class Lines {
   }
 
  private:
+  [[nodiscard]] std::string no_numbers(std::string_view what) const {
+    const std::string odd = odd_characters(line_);
+    return fmt::format("'{}' {}", line_.substr(0, 60),
+                       odd.empty() ? fmt::format("is not {}", what) : odd);
+  }
+
   LineReader reader_;
   std::string_view line_;
   std::vector<double> values_;
@@ -116,6 +122,11 @@ Entities read_entities(Lines& in) {
       const std::vector<double>& v = in.numbers(at + 1, "an entity");
       const std::size_t groups = in.count(v[at], "physical groups");
       if (v.size() < at + 1 + groups) in.fail("fewer physical groups than the line says");
+      if (dimension == 2 && groups > 1)
+        in.fail(
+            fmt::format("surface {} is in {} physical groups (one material is needed) put it "
+                        "into one",
+                        v[0], groups));
       if (groups > 0)
         physical[{dimension, in.whole(v[0], "entity")}] =
             static_cast<int>(std::abs(in.whole(v[at + 1], "physical group")));

@@ -3,6 +3,7 @@
 #include "core/check.hpp"
 #include "core/units.hpp"
 #include "importers/gmsh.hpp"
+#include "importers/mesh_faults.hpp"
 
 #include <algorithm>
 #include <set>
@@ -30,6 +31,9 @@ namespace {
 
 SectionMesh from_tables(const MeshTextConfig& config, double length) {
   MeshText text = read_mesh_text(config, length);
+  const std::string problem = unjoined(text.mesh);
+  validate(problem.empty(), "{}: {} let elements that touch name the same nodes",
+           config.nodes.path.filename().string(), problem);
   SectionMesh section;
   section.mesh = std::move(text.mesh);
   section.notes = std::move(text.notes);

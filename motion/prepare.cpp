@@ -1,5 +1,8 @@
 #include "motion/prepare.hpp"
 
+#include "motion/foreign.hpp"
+#include "motion/measures.hpp"
+
 namespace flowslide {
 
 template <>
@@ -93,7 +96,7 @@ void check(const MotionConfig& config) {
            "filter without high_pass or low_pass (nothing would be filtered)");
 }
 
-GroundMotion prepare_motion(const MotionConfig& config) {
+GroundMotion prepare_motion(const MotionConfig& config, std::vector<std::string>* warnings) {
   check(config);
   GroundMotion motion = config.record   ? read_record(config.record->path, config.format).motion
                         : config.preset ? synthesize(preset_config(*config.preset, *config.pga))
@@ -105,6 +108,8 @@ GroundMotion prepare_motion(const MotionConfig& config) {
   const bool changed = config.baseline || config.filter || config.resample;
   if (config.pga && (config.record || config.synthetic || changed))
     motion = scaled_to_pga(motion, *config.pga);
+  if (std::string odd = implausible_peak("the motion", pga(motion)); warnings && !odd.empty())
+    warnings->push_back(std::move(odd));
   return motion;
 }
 

@@ -1,14 +1,14 @@
 #include "mpm/height_field.hpp"
 
 #include "core/check.hpp"
-#include "core/files.hpp"
+#include "core/odd_characters.hpp"
+#include "core/unreadable.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <fstream>
 #include <map>
-#include <optional>
 #include <string_view>
 
 namespace flowslide::mpm {
@@ -36,13 +36,12 @@ class GridFile {
  public:
   explicit GridFile(const std::filesystem::path& path)
       : path_(path), name_(path.filename().string()) {
-    expect_regular_file(path);
-    in_.open(path);
+    const std::string why = why_unreadable(path);
+    if (why.empty()) in_.open(path);
     std::error_code error;
     bytes_ = std::filesystem::file_size(path, error);
-    if (!in_ || error)
-      throw FileError(fmt::format("{}: cannot be opened (no such file, or no right to read it)",
-                                  path.string()));
+    if (!why.empty() || !in_ || error)
+      throw FileError(fmt::format("{}: {}", path.string(), why.empty() ? "cannot be opened" : why));
   }
   /// Words of the next line that has any; false at the end of the file.
   bool next() {
@@ -50,7 +49,8 @@ class GridFile {
     while (words_.empty() && in_.getline(line_text_.data(), std::ssize(line_text_))) {
       ++line_;
       // The end of the line counts, but the last line may have none.
-      const std::string_view text(line_text_.data(), in_.gcount() - (in_.eof() ? 0 : 1));
+      std::string_view text(line_text_.data(), in_.gcount() - (in_.eof() ? 0 : 1));
+      if (line_ == 1 && text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
       for (std::size_t at = 0; at < text.size();) {
         const std::size_t first = text.find_first_not_of(" \t\r", at);
         if (first == std::string_view::npos) break;
@@ -74,11 +74,14 @@ class GridFile {
   [[nodiscard]] double number(std::string_view word) const {
     double value = kUnset;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    validate(error == std::errc{} && end == word.data() + word.size() && std::isfinite(value),
-             "{}: '{}' is not a finite number (heights are plain numbers) mark missing ones with "
-             "the nodata_value of the header",
-             place(), word.substr(0, 40));
-    return value;
+    if (error == std::errc{} && end == word.data() + word.size() && std::isfinite(value))
+      return value;
+    const std::string odd = odd_characters(word);
+    throw InputError(fmt::format(
+        "{}: '{}' {}", place(), word.substr(0, 40),
+        odd.empty() ? "is not a finite number (heights are plain numbers) mark missing ones with "
+                      "the nodata_value of the header"
+                    : odd));
   }
 
  private:
@@ -102,8 +105,13 @@ struct Header {
   int columns = 0, rows = 0;
   double spacing = kUnset;
   std::array<double, 2> corner{kUnset, kUnset};  ///< middle of the lowest cell on the left
-  std::optional<double> no_data;
+  double no_data = kUnset;
 };
+
+/// What the format means where the header has no nodata_value.
+constexpr double kUsualNoData = -9999.0;
+// The shore of the Dead Sea lies at -430 m, no pit is deeper than -1000 m; Everest has 8850 m.
+constexpr double kLowestGround = -1100.0, kHighestGround = 9000.0;
 
 constexpr int kFewest = 2, kMost = 100000;
 
@@ -151,7 +159,7 @@ Header read_header(GridFile& file) {
   const bool centre_x = value.count("xllcenter") > 0, centre_y = value.count("yllcenter") > 0;
   h.corner = {need("xllcorner", "xllcenter") + (centre_x ? 0.0 : 0.5 * h.spacing),
               need("yllcorner", "yllcenter") + (centre_y ? 0.0 : 0.5 * h.spacing)};
-  if (value.count("nodata_value")) h.no_data = value.at("nodata_value");
+  h.no_data = value.count("nodata_value") ? value.at("nodata_value") : kUsualNoData;
   validate(more, "{}: ends after its header (it has no heights) export the terrain anew",
            file.name());
   return h;
@@ -181,6 +189,12 @@ std::string HeightField::name_place(double x, double y) const {
 HeightField read_height_field(const std::filesystem::path& path, const MapPlace& place) {
   GridFile file(path);
   const Header header = read_header(file);
+  // A digit and a blank are the least that a height takes; this also bounds the memory asked for.
+  const double least = 2.0 * header.columns * header.rows - 1.0;
+  validate(static_cast<double>(std::filesystem::file_size(path)) >= least,
+           "{}: the header says {} x {} heights, but the file has {} bytes (it was cut, or the "
+           "header is wrong) export the terrain anew",
+           file.name(), header.columns, header.rows, std::filesystem::file_size(path));
   HeightField f;
   f.corner = header.corner;
   f.spacing = header.spacing;
@@ -195,13 +209,21 @@ HeightField read_height_field(const std::filesystem::path& path, const MapPlace&
              "{}: ends after {} rows of heights (the header says nrows {}) the file was cut; copy "
              "or export it again",
              file.place(), f.rows - 1 - row, f.rows);
+    if (std::ssize(file.words()) != f.columns)  // a word that is no number says more
+      for (const std::string_view word : file.words()) (void)file.number(word);
     validate(std::ssize(file.words()) == f.columns,
              "{}: {} heights in this line (the header says ncols {}) write every row of the grid "
              "on a line of its own",
              file.place(), file.words().size(), f.columns);
     for (int i = 0; i < f.columns; ++i) {
       const double value = file.number(file.words()[i]);
-      const bool missing = header.no_data && value == *header.no_data;
+      const bool missing = value == header.no_data;
+      if (!missing && !(value > kLowestGround && value < kHighestGround))
+        throw InputError(fmt::format(
+            "{}: column {}: a height of {:g} m (no ground lies there; a mark for missing data that "
+            "the header does not tell, or heights in another unit) write 'nodata_value {:g}' into "
+            "the header if it is such a mark",
+            file.place(), i + 1, value, value));
       f.height[std::size_t(row) * f.columns + i] = missing ? kUnset : value;
       f.complete = f.complete && !missing;
     }

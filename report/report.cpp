@@ -40,7 +40,9 @@ ReportFacts write_report(const ReportInputs& in, const ReportConfig& config,
     if (!drawn.problem.empty()) facts.warnings.push_back(drawn.problem);
   }
   if (config.paraview) write_paraview(out, in.history, in.zone, in.flow, progress);
-  write_file(out / "facts.json", to_json(facts));
+  ReportFacts told = facts;
+  told.warnings.insert(told.warnings.begin(), in.warnings.begin(), in.warnings.end());
+  write_file(out / "facts.json", to_json(told));
   write_file(out / "report.md", report_markdown(in, config, facts, drawn));
   return facts;
 }

@@ -22,6 +22,7 @@ struct ReportInputs {
   const MpmHistory& flow;
   /// What identifies the run, as (name, text) rows: workflow, versions, hashes of the inputs.
   std::vector<std::pair<std::string, std::string>> provenance;
+  std::vector<std::string> warnings = {};  ///< of the stages before, one sentence each
 };
 
 /// Writes into the existing or new folder `out`: report.md, facts.json, runout.csv, zone.csv,

@@ -22,8 +22,9 @@ struct Decision {
   std::string why;                    ///< "settings changed (c_soft_ratio 1 -> 0.5)"
   std::string key;                    ///< empty while undecided
   std::optional<StageRecord> record;  ///< of the result to reuse
-  std::vector<HashedFile> files;      ///< of the result to reuse, just read
-  std::vector<std::string> problems;  ///< what is wrong with a result that cannot be reused
+  std::vector<HashedFile> files = {};      ///< of the result to reuse, just read
+  std::vector<std::string> problems = {};  ///< what is wrong with a result that cannot be reused
+  std::vector<std::string> warnings = {};  ///< of the result to reuse, and of the settings
 };
 
 /// Decides about one stage, and reads every file of a result before it says that it can be reused.

@@ -5,6 +5,7 @@
 #include "workflows/engine/program_version.hpp"
 #include "workflows/engine/result_folder.hpp"
 #include "workflows/engine/session.hpp"
+#include "workflows/engine/warnings.hpp"
 
 #include <chrono>
 #include <stdexcept>
@@ -123,9 +124,10 @@ StageState run_stage(const WorkflowStage& stage, const Decision& decision,
   RunContext context{.folder = work,
                      .threads = options.threads,
                      .progress = {},
-                     .provenance = {{"program", program_version()}, {"stage key", decision.key}}};
+                     .provenance = {{"program", program_version()}, {"stage key", decision.key}},
+                     .warnings = inputs.warnings};
   for (const auto& [port, hash] : inputs.hashes)
-    context.provenance.emplace_back("sha256 of " + port, hash);
+    if (port != kWarningsInput) context.provenance.emplace_back("sha256 of " + port, hash);
   context.progress.stop_requested = options.stop_requested;
   context.progress.report = [&](double fraction, std::string_view text) {
     events.progress(stage.name, fraction, text);
@@ -143,7 +145,7 @@ StageState run_stage(const WorkflowStage& stage, const Decision& decision,
                      .files = {},
                      .publish = result.publish,
                      .give = result.give,
-                     .facts = result.facts,
+                     .facts = add_warnings(result.facts, result.warnings),
                      .program = program_version(),
                      .seconds = watch.seconds()};
   for (const Port& port : stage.type.outputs) expect_output(stage, port, work);

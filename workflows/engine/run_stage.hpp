@@ -14,6 +14,7 @@ struct StageInputs {
   std::map<std::string, std::string> hashes;  ///< by port
   PortPaths paths;
   std::vector<HashedFile> files;  ///< below these paths, as they were when last read
+  std::vector<std::string> warnings = {};  ///< of the stages before it
 };
 
 /// A result that lies in the run folder.

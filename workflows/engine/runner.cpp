@@ -5,6 +5,7 @@
 #include "workflows/engine/run_folder.hpp"
 #include "workflows/engine/run_stage.hpp"
 #include "workflows/engine/top.hpp"
+#include "workflows/engine/warnings.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -37,9 +38,22 @@ std::map<std::string, std::string> input_hashes(
   return hashes;
 }
 
-StageInputs stage_inputs(const WorkflowStage& stage, const fs::path& folder,
+/// What stages before this one warn of.
+std::vector<std::string> warnings_before(const Workflow& workflow, const WorkflowStage& stage,
+                                         const std::vector<std::optional<StageState>>& results) {
+  std::vector<const StageRecord*> records;
+  for (const auto& result : results) records.push_back(result ? &result->record : nullptr);
+  return earlier_warnings(workflow, stage, records);
+}
+
+StageInputs stage_inputs(const Workflow& workflow, const WorkflowStage& stage,
+                         const fs::path& folder,
                          const std::vector<std::optional<StageState>>& results) {
-  StageInputs inputs{.hashes = input_hashes(stage, results), .paths = {}, .files = {}};
+  StageInputs inputs{.hashes = input_hashes(stage, results),
+                     .paths = {},
+                     .files = {},
+                     .warnings = warnings_before(workflow, stage, results)};
+  add_to_inputs(inputs.hashes, stage, inputs.warnings);
   for (const Link& link : stage.inputs) {
     const StageState& from = *results[link.from_stage];
     const fs::path path = result_folder(folder, from.record.stage, from.record.key) /
@@ -86,15 +100,18 @@ void run_stages(const Workflow& workflow, const RunOptions& options, const RunEv
   double in_stages = 0.0;
   for (const WorkflowStage& stage : workflow.stages) {
     stop_before(stage.name);
-    const StageInputs inputs = stage_inputs(stage, options.folder, results);
+    const StageInputs inputs = stage_inputs(workflow, stage, options.folder, results);
     Decision decision = decide(options.folder, stage, inputs.hashes, top.previous(stage.name),
                                [&] { stop_before(stage.name); });
     if (decision.action == Action::reuse && is_asked_for(stage, options)) {
       decision.action = Action::run;
       decision.why = "asked for";
+      decision.record.reset();
     }
+    decision.warnings = warnings_of(stage, decision.record ? &*decision.record : nullptr);
     tell_problems(stage, decision, events);
     events.decided(stage.name, decision);
+    events.warned(stage.name, decision.warnings);
     StageState state;
     if (decision.action == Action::reuse) {
       remove_work_folder(options.folder, work_folder(options.folder, stage.name, decision.key));
@@ -104,7 +121,9 @@ void run_stages(const Workflow& workflow, const RunOptions& options, const RunEv
       const auto stage_start = Clock::now();
       state = run_stage(stage, decision, inputs, options, events);
       in_stages += seconds_since(stage_start);
+      decision.warnings = warnings_of(stage, &state.record);
       events.done(stage.name, state.record.seconds);
+      events.warned(stage.name, decision.warnings);
     }
     top.stage_done(state.record, decision.action != Action::reuse);
     outcomes.push_back({state.record, decision});
@@ -134,8 +153,12 @@ std::vector<PlanLine> plan_workflow(const Workflow& workflow, const fs::path& fo
   for (const WorkflowStage& stage : workflow.stages) {
     std::optional<StageRecord> previous;
     if (before && before->stages.contains(stage.name)) previous = before->stages.at(stage.name);
-    plan.push_back({stage.name, decide(folder, stage, input_hashes(stage, results), previous)});
-    const Decision& decision = plan.back().decision;
+    auto inputs = input_hashes(stage, results);
+    add_to_inputs(inputs, stage, warnings_before(workflow, stage, results));
+    plan.push_back({stage.name, decide(folder, stage, inputs, previous)});
+    Decision& decision = plan.back().decision;
+    decision.warnings =
+        warnings_of(stage, decision.record ? &*decision.record : nullptr);
     results.emplace_back();
     if (decision.action == Action::reuse)
       results.back() = StageState{*decision.record, decision.files};

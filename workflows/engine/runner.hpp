@@ -32,6 +32,10 @@ struct RunEvents {
   };
   /// Something of the run folder that was not as it should be, or that is no longer there.
   std::function<void(std::string_view text)> notice = [](std::string_view) {};
+  /// What a user must know before using the result of a stage: once it is decided on, of its
+  /// settings and of a result that is used again; when it ends, of the new result.
+  std::function<void(std::string_view stage, const std::vector<std::string>&)> warned =
+      [](std::string_view, const std::vector<std::string>&) {};
 };
 
 /// Brings the run folder up to date with the workflow and writes DIR/result.json. Finished stages

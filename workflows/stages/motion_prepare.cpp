@@ -1,6 +1,7 @@
 #include "model/motion_file.hpp"
 #include "motion/measures.hpp"
 #include "motion/prepare.hpp"
+#include "workflows/stages/preview.hpp"
 #include "workflows/stages/stage_list.hpp"
 
 #include <nlohmann/json.hpp>
@@ -23,9 +24,15 @@ struct MotionPrepareStage {
     void visit(auto&& port) { port("motion", motion); }
   };
   static void check(const Config& config) { flowslide::check(config); }
+  /// Reading a record takes less than a second; making a motion takes longer and opens no file.
+  static std::any preview(const Config& config, const Previews&, Findings& found) {
+    if (config.record) (void)prepare_motion(config, &found.warnings);
+    return Preview{};
+  }
   static StageResult run(const RunContext&, const Config& config, const Inputs&,
                          const Outputs& out) {
-    const GroundMotion motion = prepare_motion(config);
+    std::vector<std::string> warnings;
+    const GroundMotion motion = prepare_motion(config, &warnings);
     write_motion_file(out.motion.path, motion);
     const MotionMeasures m = measure(motion);
     const nlohmann::ordered_json facts = {{"motion_pga_m_s2", m.pga},
@@ -37,7 +44,7 @@ struct MotionPrepareStage {
                                           {"motion_masi_m_s", m.masi},
                                           {"motion_dt_s", motion.dt},
                                           {"motion_duration_s", motion.duration()}};
-    return {.facts = facts.dump(), .publish = {}};
+    return {.facts = facts.dump(), .publish = {}, .warnings = std::move(warnings)};
   }
 };
 
