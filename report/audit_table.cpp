@@ -89,7 +89,14 @@ std::string audit_tables(const std::filesystem::path& audit) {
     throw FileError(fmt::format(
         "{}: cannot be read (the report shows the audit of the transfer) run the transfer again",
         audit.string()));
-  const Json json = Json::parse(file, nullptr, false);
+  // Tables are made by recursion, which an audit from elsewhere must not drive too deep.
+  constexpr int kDeepest = 32;
+  const auto bounded = [&](int depth, Json::parse_event_t, const Json&) {
+    validate(depth <= kDeepest, "{}: is nested more than {} deep (no audit is) run the transfer again",
+             audit.string(), kDeepest);
+    return true;
+  };
+  const Json json = Json::parse(file, bounded, false);
   validate(json.is_object(), "{}: is not a JSON object (an audit is one) run the transfer again",
            audit.string());
   std::string rows, tables;
