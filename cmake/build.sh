@@ -39,5 +39,6 @@ quietly() {
   echo "error: '$*' failed; the last lines of its output are above" >&2
   exit 1
 }
-[ -f "build/$preset/build.ninja" ] || quietly cmake --preset "$preset"
+{ [ -f "build/$preset/CMakeCache.txt" ] && [ -f "build/$preset/build.ninja" ]; } ||
+  quietly cmake --preset "$preset"
 quietly cmake --build --preset "$preset" --target "$@"
