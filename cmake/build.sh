@@ -1,14 +1,22 @@
 #!/usr/bin/env bash
-# cmake/build.sh TARGET: installs missing Debian packages, then configures and builds the preset
-# release. Quiet unless something goes wrong.
+# cmake/build.sh [--preset NAME] TARGET...: installs missing Debian packages, then configures and
+# builds a preset, release unless named. Quiet unless something goes wrong.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+preset=release
+if [ "$1" = --preset ]; then
+  preset=$2
+  shift 2
+fi
 
 packages=(
   g++ cmake ninja-build ccache git ca-certificates
   libeigen3-dev libfmt-dev libssl-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev zlib1g-dev
   libhdf5-dev libvtk9-dev catch2 python3 python3-numpy python3-matplotlib
 )
+case $preset in
+  race | fuzz) packages+=(clang llvm libclang-rt-dev libomp-dev) ;;
+esac
 missing=()
 for package in "${packages[@]}"; do
   status=$(dpkg-query -W -f '${Status}' "$package" 2>/dev/null || true)
@@ -31,5 +39,6 @@ quietly() {
   echo "error: '$*' failed; the last lines of its output are above" >&2
   exit 1
 }
-[ -f build/release/CMakeCache.txt ] && [ -f build/release/build.ninja ] || quietly cmake --preset release
-quietly cmake --build --preset release --target "$1"
+{ [ -f "build/$preset/CMakeCache.txt" ] && [ -f "build/$preset/build.ninja" ]; } ||
+  quietly cmake --preset "$preset"
+quietly cmake --build --preset "$preset" --target "$@"

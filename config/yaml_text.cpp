@@ -67,11 +67,11 @@ bool is_structure(std::string_view before) {
 
 }  // namespace
 
-Where Source::at(int line, int column) const {
-  return has_lines ? Where{name, line, column} : Where{name};
+Place Source::at(int line, int column) const {
+  return has_lines ? Place{name, line, column} : Place{name};
 }
 
-Where Source::at_byte(std::string_view text, std::size_t byte) const {
+Place Source::at_byte(std::string_view text, std::size_t byte) const {
   const std::string_view before = text.substr(0, byte);
   const auto line = 1 + std::count(before.begin(), before.end(), '\n');
   const auto newline = before.rfind('\n');
@@ -110,7 +110,7 @@ std::string clean_text(std::string_view bytes, const Source& source) {
       bytes.starts_with("\0\0\xFE\xFF"sv))
     throw InputError(fmt::format(
         "{}: is UTF-16 or UTF-32 text (UTF-8 is expected) save it as UTF-8 in your editor",
-        source.at(1, 1).text()));
+        source.at(1, 1).where().text()));
   if (bytes.starts_with("\xEF\xBB\xBF"sv)) bytes.remove_prefix(3);
 
   std::string text;

@@ -46,8 +46,9 @@ SectionMesh from_tables(const MeshTextConfig& config, double length) {
 
 void rename(SectionMesh& section, const std::map<std::string, NamedTag>& names) {
   for (const auto& [name, material] : names) {
-    const auto found = std::find_if(section.materials.begin(), section.materials.end(),
-                                    [&](const MaterialName& m) { return m.tag == material.tag; });
+    const auto found =
+        std::find_if(section.materials.begin(), section.materials.end(),
+                     [tag = material.tag](const MaterialName& m) { return m.tag == tag; });
     if (found == section.materials.end()) {
       std::string tags;
       for (const MaterialName& m : section.materials) tags += fmt::format(" {}", m.tag);

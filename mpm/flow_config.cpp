@@ -22,7 +22,7 @@ void check(const FlowConfig& c) {
     validate(!planes.bottom || point[1] <= *planes.bottom - 2.0 * c.cell,
              "ground.surface reaches up to y = {:g} m (it would hold the soil in place of "
              "absorbing.bottom at {:g} m) lower it by two cells or more below the plane",
-             point[1], *planes.bottom);
+             point[1], planes.bottom.value_or(kUnset));
   validate(!c.outlet.left || !c.outlet.right || *c.outlet.left < *c.outlet.right,
            "outlet.left is not left of outlet.right (nothing lies between them) swap them");
   validate(!c.outlet.bottom || !c.outlet.top || *c.outlet.bottom < *c.outlet.top,

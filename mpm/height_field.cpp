@@ -189,12 +189,6 @@ std::string HeightField::name_place(double x, double y) const {
 HeightField read_height_field(const std::filesystem::path& path, const MapPlace& place) {
   GridFile file(path);
   const Header header = read_header(file);
-  // A digit and a blank are the least that a height takes; this also bounds the memory asked for.
-  const double least = 2.0 * header.columns * header.rows - 1.0;
-  validate(static_cast<double>(std::filesystem::file_size(path)) >= least,
-           "{}: the header says {} x {} heights, but the file has {} bytes (it was cut, or the "
-           "header is wrong) export the terrain anew",
-           file.name(), header.columns, header.rows, std::filesystem::file_size(path));
   HeightField f;
   f.corner = header.corner;
   f.spacing = header.spacing;
@@ -203,12 +197,13 @@ HeightField read_height_field(const std::filesystem::path& path, const MapPlace&
   f.place = place;
   f.source = file.name();
   f.first_line = file.line();
-  f.height.resize(std::size_t(f.columns) * f.rows);
-  for (int row = f.rows - 1; row >= 0; --row) {
+  // Grows with what the file holds: a header alone must not take the memory of the machine.
+  std::vector<double>& height = f.height;
+  for (int row = 0; row < f.rows; ++row) {
     validate(!file.words().empty(),
              "{}: ends after {} rows of heights (the header says nrows {}) the file was cut; copy "
              "or export it again",
-             file.place(), f.rows - 1 - row, f.rows);
+             file.place(), row, f.rows);
     if (std::ssize(file.words()) != f.columns)  // a word that is no number says more
       for (const std::string_view word : file.words()) (void)file.number(word);
     validate(std::ssize(file.words()) == f.columns,
@@ -224,11 +219,16 @@ HeightField read_height_field(const std::filesystem::path& path, const MapPlace&
             "the header does not tell, or heights in another unit) write 'nodata_value {:g}' into "
             "the header if it is such a mark",
             file.place(), i + 1, value, value));
-      f.height[std::size_t(row) * f.columns + i] = missing ? kUnset : value;
+      height.push_back(missing ? kUnset : value);
       f.complete = f.complete && !missing;
     }
     file.next();
   }
+  // The file begins with the last row.
+  for (int low = 0, high = f.rows - 1; low < high; ++low, --high)
+    std::swap_ranges(height.begin() + std::ptrdiff_t(low) * f.columns,
+                     height.begin() + std::ptrdiff_t(low + 1) * f.columns,
+                     height.begin() + std::ptrdiff_t(high) * f.columns);
   validate(file.words().empty(),
            "{}: more rows of heights than nrows {} (the header and the rows disagree) export the "
            "terrain anew",

@@ -86,7 +86,14 @@ std::string cell(std::string text) {
 }
 
 std::string audit_tables(const std::filesystem::path& audit) {
-  const Json json = Json::parse(read_file(audit, kLargestAudit), nullptr, false);
+  // Tables are made by recursion, which an audit from elsewhere must not drive too deep.
+  constexpr int kDeepest = 32;
+  const auto bounded = [&](int depth, Json::parse_event_t, const Json&) {
+    validate(depth <= kDeepest, "{}: is nested more than {} deep (no audit is) run the transfer again",
+             audit.string(), kDeepest);
+    return true;
+  };
+  const Json json = Json::parse(read_file(audit, kLargestAudit), bounded, false);
   validate(json.is_object(), "{}: is not a JSON object (an audit is one) run the transfer again",
            audit.string());
   std::string rows, tables;

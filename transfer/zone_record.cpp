@@ -63,7 +63,7 @@ ZoneParts divide(const QuadMesh& mesh, const TransferRuleConfig& config) {
 
 void check_windows(const QuadMesh& mesh, const ZoneParts& parts, const DepthWindows& windows) {
   for (const auto& [name, window] : windows) {
-    const bool found = std::ranges::any_of(parts.soil, [&mesh, &window](std::int32_t e) {
+    const bool found = std::ranges::any_of(parts.soil, [&mesh, &window = window](std::int32_t e) {
       return std::ranges::any_of(mesh.elements[static_cast<std::size_t>(e)], [&](std::int32_t n) {
         return window.contains(mesh.nodes[static_cast<std::size_t>(n)][0]);
       });

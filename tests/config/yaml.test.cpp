@@ -2,6 +2,7 @@
 
 #include "tests/config/sample.hpp"
 
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <catch2/catch.hpp>
@@ -145,6 +146,26 @@ TEST_CASE("hostile nesting is refused quickly", "[config]") {
   CHECK(load_problem(repeat("[", 1000) + repeat("]", 1000)).find("more than 64 deep") !=
         std::string::npos);
   CHECK(load_problem(repeat("[", 64) + repeat("]", 64)).empty());
+}
+
+TEST_CASE("long keys above a long list do not multiply", "[config]") {
+  // 60 keys of 1000 letters above 20000 values: as a text in every value they were 1.2 GB.
+  std::string text;
+  for (int depth = 0; depth < 60; ++depth)
+    text += std::string(depth, ' ') + std::string(1000, 'k') + ":\n";
+  text += std::string(60, ' ') + "[1";
+  for (int i = 1; i < 20000; ++i) text += ",1";
+  const YamlFile file(text + "]\n");
+  const auto peak = [] {
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;  // [kB]
+  };
+  const long before = peak();
+  YamlNode node = load_yaml(file.path());
+  while (node.kind() == YamlNode::Kind::map) node = node.entries()[0].second;
+  CHECK(peak() - before < 400'000);
+  CHECK(node.item(19999).path().size() == 60 * 1001 + 5);
 }
 
 TEST_CASE("a near word is found, a far one is not", "[config]") {

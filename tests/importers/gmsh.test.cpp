@@ -144,6 +144,16 @@ TEST_CASE("gmsh files that are no section are refused with their place") {
   CHECK_THAT(error_of(kFormat2, "$Elements\n6", "$Elements\n7"), Contains("not an element"));
   CHECK_THAT(error_of(kFormat2, "$Elements\n6", "$Elements\n5"), Contains("more lines"));
   CHECK_THAT(error_of(kFormat2, "$Elements\n6", "$Elements\n1e99"), Contains("whole number"));
+  // 2^32 + 168 is not 168.
+  CHECK_THAT(error_of(kFormat2, "10 3 2 168", "10 3 2 4294967464"),
+             Contains("dam.msh:26: physical group 4294967464 is larger"));
+  CHECK_THAT(error_of(kFormat2, "10 3 2 168", "10 4294967299 2 168"),
+             Contains("type 4294967299 is larger"));
+  CHECK_THAT(error_of(kFormat2, "2 168 \"", "2 4294967464 \""), Contains("is larger"));
+  CHECK_THAT(error_of(kFormat2, "2 168 \"", "2x168 \""), Contains("is not a dimension"));
+  CHECK_THAT(error_of(kFormat2, "2 168 \"", "168 \""), Contains("dimension, number, \"name\""));
+  CHECK_THAT(error_of(kFormat4, "1 0 0 0 1 1 0 1 168", "1 0 0 0 1 1 0 1 4294967464"),
+             Contains("is larger"));
   CHECK_THAT(error_of(kFormat4, "$EndElements\n", ""), Contains("ends inside $Elements"));
   CHECK_THAT(error_of(kFormat2, "$MeshFormat\n", "solid dam\n"), Contains("is this a .msh"));
 }

@@ -134,4 +134,8 @@ TEST_CASE("An audit becomes tables whatever it holds") {
         "| mass\\|all | 1.25 | - |  |\n| momentum_x |  |  | 3e-13 |\n\n"
         "| quantity | value |\n|---|---|\n"
         "| passed | yes |\n| counts, points | 7 |\n| notes | none |\n\n");
+  // Another program's, or a trap: tables are made by recursion.
+  const std::string deep = "{\"a\":" + std::string(100000, '[') + std::string(100000, ']') + "}";
+  CHECK_THROWS_WITH(audit_tables(scratch.write("audit.json", deep)),
+                    Catch::Contains("nested more than"));
 }
