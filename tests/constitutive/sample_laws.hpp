@@ -71,6 +71,12 @@ inline HerschelBulkley::Params sample(HerschelBulkley::Params p) {
   p.yield_stress = 200.0;
   return p;
 }
+inline PM4Sand::Params sample(PM4Sand::Params p) {
+  p.Dr = 0.35;
+  p.G0 = 476.0;
+  p.hpo = 0.53;
+  return p;
+}
 inline ModifiedCamClay::Params sample(ModifiedCamClay::Params p) {
   p.critical_ratio = 1.1;
   p.compression_index = 0.1;
@@ -149,6 +155,7 @@ struct Plain<LawList<M...>> {
 using EveryLaw = Plain<FlowLaws>::type;
 using EveryLawIn2And3 = InBoth<FlowLaws>::type;
 using LawsOfStrainIn2And3 = InBoth<Filtered<FlowLaws, FollowsStrain>>::type;
+using EveryShakingLaw = Plain<ShakingLaws>::type;
 using LawsWithPacks = Plain<Filtered<FlowLaws, HasPacks>>::type;
 
 /// Components that are not small: a normal distribution of the given scale.
