@@ -62,7 +62,7 @@ TEMPLATE_LIST_TEST_CASE("Elements follow their law, and energy is balanced", "[f
 }
 
 TEMPLATE_TEST_CASE("Soil without friction carries no more shear than its cohesion", "[fem]",
-                   MohrCoulomb) {
+                   MohrCoulomb, DruckerPrager) {
   using M = TestType;
   const auto most = [](double cohesion) {
     FemMaterialConfig m = soil();
