@@ -8,6 +8,15 @@ using namespace flowslide;
 
 namespace {
 
+/// A stress that law M may meet: any, or one under pressure.
+template <class M, int Dim>
+Stress<Dim> random_stress(std::mt19937_64& random, double scale) {
+  auto sigma = random_voigt<Stress<Dim>>(random, kNeedsPressure<M> ? 0.5 * scale : scale);
+  if constexpr (kNeedsPressure<M>)
+    for (int i = 0; i < 3; ++i) sigma[i] -= 3.0 * scale;
+  return sigma;
+}
+
 template <class M, int Dim>
 StressUpdate<typename M::State, Dim> in_steps(const typename M::Constants& c,
                                               typename M::State state, Stress<Dim> sigma,
@@ -118,7 +127,7 @@ TEMPLATE_LIST_TEST_CASE("Plane strain is three dimensions with the same data", "
     plastic += yielded(M::initial_state(params), flat.state);
   }
   constexpr bool elastic = std::is_same_v<M, LinearElastic> || std::is_same_v<M, NeoHookean>;
-  CHECK((plastic > 5000) == !elastic);
+  CHECK((plastic > 2000) == !elastic);
 }
 
 TEMPLATE_LIST_TEST_CASE("An increment in parts comes close to the whole", "[constitutive]",

@@ -82,7 +82,7 @@ inline ModifiedCamClay::Params sample(ModifiedCamClay::Params p) {
   p.compression_index = 0.1;
   p.swelling_index = 0.02;
   p.poisson_ratio = 0.25;
-  p.preconsolidation = 75e3;
+  p.preconsolidation = 72e3;
   return p;
 }
 inline NorSand::Params sample(NorSand::Params p) {
@@ -165,15 +165,6 @@ V random_voigt(std::mt19937_64& random, double scale) {
   V r;
   for (double& x : r.v) x = normal(random);
   return r;
-}
-
-/// A stress that law M may meet: any, or one under pressure.
-template <class M, int Dim>
-Stress<Dim> random_stress(std::mt19937_64& random, double scale) {
-  auto sigma = random_voigt<Stress<Dim>>(random, kNeedsPressure<M> ? 0.2 * scale : scale);
-  if constexpr (kNeedsPressure<M>)
-    for (int i = 0; i < 3; ++i) sigma[i] -= 3.0 * scale;
-  return sigma;
 }
 
 inline Eigen::Matrix3d tensor(const Stress<2>& s) {
