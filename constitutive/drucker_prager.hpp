@@ -2,6 +2,7 @@
 #include "config/schema.hpp"
 #include "constitutive/concept.hpp"
 #include "constitutive/gap.hpp"
+#include "constitutive/shaking.hpp"
 #include "constitutive/softening.hpp"
 
 #include <cmath>
@@ -73,6 +74,9 @@ struct DruckerPrager {
             p.tension_cutoff.value_or(std::numeric_limits<double>::infinity())};
   }
   static State initial_state(const Params&) { return {}; }
+  static ShearStrength shear_strength(const Params& p) {
+    return {p.cohesion * std::cos(p.friction_angle), std::sin(p.friction_angle)};
+  }
   template <class T>
   static T present_strength(const Constants& c, const StateOf<T>& s) noexcept {
     return c.cohesion + c.cohesion_change * c.softening.degree(s.plastic_strain);

@@ -4,6 +4,7 @@
 #include "constitutive/gap.hpp"
 #include "constitutive/mohr_coulomb_return.hpp"
 #include "constitutive/principal.hpp"
+#include "constitutive/shaking.hpp"
 #include "constitutive/softening.hpp"
 
 #include <cmath>
@@ -61,6 +62,9 @@ struct MohrCoulomb {
             p.tension_cutoff.value_or(std::numeric_limits<double>::infinity())};
   }
   static State initial_state(const Params&) { return {}; }
+  static ShearStrength shear_strength(const Params& p) {
+    return {p.cohesion * std::cos(p.friction_angle), std::sin(p.friction_angle)};
+  }
 
   template <class T>
   static T present_strength(const Constants& c, const StateOf<T>& s) noexcept {

@@ -74,9 +74,10 @@ struct NorSand {
   [[nodiscard]] static StressUpdate<StateOf<T>, Dim, T> update(
       const Constants& c, const StateOf<T>& old, const Stress<Dim, T>& sigma,
       const StrainIncrement<Dim, T>& de) noexcept {
-    double largest = 0.0;
-    for (const T& x : de.v) largest = std::max(largest, std::abs(x));
-    const int parts = std::clamp(static_cast<int>(largest / kPart) + 1, 1, 200);
+    // An invariant, not the largest component: the answer must not turn with the axes.
+    double squares = 0.0;
+    for (int i = 0; i < kVoigt<Dim>; ++i) squares += (i < 3 ? 2.0 : 1.0) * de[i] * de[i];
+    const int parts = std::clamp(static_cast<int>(std::sqrt(squares) / kPart) + 1, 1, 200);
     StrainIncrement<Dim, T> part = de;
     for (T& x : part.v) x *= 1.0 / parts;
     StressUpdate<StateOf<T>, Dim, T> r{sigma, old};

@@ -52,6 +52,8 @@ PM4Sand::Constants PM4Sand::constants(const Params& p) {
   return c;
 }
 
+ShearStrength PM4Sand::shear_strength(const Params& p) { return {0.0, std::sin(p.phi_cv)}; }
+
 Elasticity PM4Sand::gravity_elasticity(const Params& p, double poisson_ratio) {
   const double shear = p.G0 * p.P_atm;
   return {2.0 / 3.0 * (1.0 + poisson_ratio) / (1.0 - 2.0 * poisson_ratio) * shear, shear};

@@ -8,7 +8,7 @@ namespace flowslide::fem {
 namespace {
 
 // Changes whenever the list of fields below changes.
-constexpr std::uint64_t kFields = 0x7368616b65637032;
+constexpr std::uint64_t kFields = 0x7368616b65637033;
 
 /// One list of fields for both directions: `Archive` writes or reads each. The forces carry the
 /// damping of the step that made them, so they belong to the state.
@@ -24,8 +24,7 @@ void transfer_fields(Archive& a, S& s, Run& run) {
   a.array(t.stress);
   a.array(t.hourglass_x);
   a.array(t.hourglass_y);
-  a.array(t.pm4sand);
-  a.array(t.mohr_coulomb);
+  std::apply([&](auto&... states) { (a.array(states.of), ...); }, t.laws);
   a.value(t.last_dt);
   a.value(t.energy);
   a.value(t.pending);

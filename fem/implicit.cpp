@@ -118,8 +118,7 @@ ImplicitSteps::Residual ImplicitSteps::evaluate(Solver& s, const Base& base) {
   t.stress = start_.stress;
   t.hourglass_x = start_.hourglass_x;
   t.hourglass_y = start_.hourglass_y;
-  t.pm4sand = start_.pm4sand;
-  t.mohr_coulomb = start_.mohr_coulomb;
+  t.laws = start_.laws;
   for (std::int32_t u = 0; u < s.model.num_dofs; ++u) {
     const std::int32_t row = matrix_.row_of()[u];
     middle_[u] = (1.0 - theta) * start_.velocity[u] + theta * (row >= 0 ? x_[row] : base.end);

@@ -22,7 +22,7 @@ FemMaterialConfig nevada_sand() {
   const double blow_count = 46.0 * p.Dr * p.Dr;
   p.G0 = 167.0 * std::sqrt(blow_count + 2.5);
   p.hpo = 0.50;  // between those of the manual for 35 and 55 %
-  m.pm4sand = p;
+  m.laws.of<PM4Sand>() = p;
   m.void_ratio = p.emax - p.Dr * (p.emax - p.emin);
   m.density = (2.67 + m.void_ratio) / (1.0 + m.void_ratio) * kWater;
   m.permeability = {50.0 * 6.6e-5, 50.0 * 6.6e-5};  // water at 50 g
@@ -67,7 +67,7 @@ Outcome shake(double amplitude, double slope) {
     if (s.state.step % 16 == 0) refresh_moduli(s);
     if (!is_set(at_end) && s.state.time > kCycles / kFrequency + 1.0) {
       at_end = shift();
-      for (PM4Sand::Constants& law : s.laws.pm4sand) law.post_shake = true;
+      for (PM4Sand::Constants& law : std::get<fem::LawConstants<PM4Sand>>(s.laws).of) law.post_shake = true;
     }
     advance(s, {ground(amplitude, s.state.time), ground(amplitude, s.state.time + s.dt)});
     for (std::size_t k = 0; k < kDepths.size(); ++k) {

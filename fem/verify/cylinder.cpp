@@ -95,7 +95,7 @@ Solver disc(int n, double poisson) {
   Model m;
   m.mesh = quarter_disc(n);
   m.materials = {{"soil",
-                  *c.linear_elastic,
+                  flowslide::Material<LinearElastic>{*c.laws.of<LinearElastic>()},
                   100.0,  // inertia only matters while the load comes
                   c.void_ratio / (1.0 + c.void_ratio),
                   {kPermeability, kPermeability},

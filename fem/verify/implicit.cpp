@@ -118,7 +118,7 @@ History shake_implicitly(double dt, double theta) {
         energy.base += dt * (inertia[k] + push[k] + lost - weight[k]) * middle[k];
     }
     s.state.stress = trial.stress;
-    s.state.pm4sand = trial.sand;
+    std::get<fem::LawStates<PM4Sand>>(s.state.laws).of = trial.sand;
     for (std::size_t e = 0; e < s.state.hourglass_x.size(); ++e)
       for (int i = 0; i < 4; ++i) {
         const double gamma = s.layout.elements.gamma[i][e];

@@ -58,7 +58,7 @@ inline FemMaterialConfig soil() {
 
 inline FemMaterialConfig elastic_soil(double young = 50e6, double poisson = 0.3) {
   FemMaterialConfig m = soil();
-  m.linear_elastic = LinearElastic::Params{young, poisson};
+  m.laws.of<LinearElastic>() = LinearElastic::Params{young, poisson};
   m.k0 = poisson / (1.0 - poisson);
   return m;
 }
@@ -69,7 +69,7 @@ inline FemMaterialConfig sand(double Dr = 0.35, double G0 = 476.0, double hpo = 
   p.Dr = Dr;
   p.G0 = G0;
   p.hpo = hpo;
-  m.pm4sand = p;
+  m.laws.of<PM4Sand>() = p;
   return m;
 }
 

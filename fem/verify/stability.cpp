@@ -85,13 +85,13 @@ double tip_ratio(const Cantilever& beam) {
   constexpr double kYoung = 10e6;
   FemMaterialConfig m = elastic_soil(kYoung, beam.poisson);
   if (beam.cohesion) {
-    m.linear_elastic.reset();
-    m.mohr_coulomb.emplace();
-    m.mohr_coulomb->youngs_modulus = kYoung;
-    m.mohr_coulomb->poisson_ratio = beam.poisson;
-    m.mohr_coulomb->cohesion = *beam.cohesion;
-    m.mohr_coulomb->friction_angle = 0.0;
-    m.mohr_coulomb->tension_cutoff = 100.0 * *beam.cohesion;
+    m.laws.of<LinearElastic>().reset();
+    m.laws.of<MohrCoulomb>().emplace();
+    m.laws.of<MohrCoulomb>()->youngs_modulus = kYoung;
+    m.laws.of<MohrCoulomb>()->poisson_ratio = beam.poisson;
+    m.laws.of<MohrCoulomb>()->cohesion = *beam.cohesion;
+    m.laws.of<MohrCoulomb>()->friction_angle = 0.0;
+    m.laws.of<MohrCoulomb>()->tension_cutoff = 100.0 * *beam.cohesion;
   }
   m.density = kBeamDensity;
   FemConfig c = config(m, 0.0);
@@ -202,8 +202,8 @@ struct Shaken {
 /// A column of loose sand, before it liquefies.
 Shaken shaken_column(double courant, double increment) {
   FemMaterialConfig m = sand();
-  m.pm4sand->max_strain_increment = increment;
-  if (increment < 1e-5) m.pm4sand->tolerance = 1e-6;
+  m.laws.of<PM4Sand>()->max_strain_increment = increment;
+  if (increment < 1e-5) m.laws.of<PM4Sand>()->tolerance = 1e-6;
   FemConfig c = config(m, 10.0);
   c.damping.stiffness = 1e-3;
   Solver s = at_rest(section({.columns = 1, .rows = 10, .width = 2.0, .height = 10.0}), c, courant);
@@ -270,19 +270,19 @@ Outcome hostile(std::mt19937& random) {
   const double steep = uniform(0.0, 0.9), width = mesh.mesh.nodes[4][0];
   for (Vec2& x : mesh.mesh.nodes) x[1] *= 1.0 - steep * x[0] / width;
   FemMaterialConfig m = sand(uniform(0.2, 0.9), uniform(100.0, 1200.0), log_uniform(0.02, 5.0));
-  m.pm4sand->max_strain_increment = 1e-3;
-  m.pm4sand->tolerance = 1e-2;
+  m.laws.of<PM4Sand>()->max_strain_increment = 1e-3;
+  m.laws.of<PM4Sand>()->tolerance = 1e-2;
   m.permeability = {log_uniform(1e-14, 1.0), log_uniform(1e-14, 1.0)};
   m.void_ratio = uniform(0.3, 2.0);
   m.density = uniform(1100.0, 2400.0);
   m.k0 = uniform(0.2, 0.95);
   if (random() % 5 == 0) {
-    m.pm4sand.reset();
-    m.mohr_coulomb.emplace();
-    m.mohr_coulomb->youngs_modulus = log_uniform(1e5, 1e9);
-    m.mohr_coulomb->poisson_ratio = 0.3;
-    m.mohr_coulomb->cohesion = log_uniform(1.0, 1e5);
-    m.mohr_coulomb->friction_angle = uniform(0.0, 0.8);
+    m.laws.of<PM4Sand>().reset();
+    m.laws.of<MohrCoulomb>().emplace();
+    m.laws.of<MohrCoulomb>()->youngs_modulus = log_uniform(1e5, 1e9);
+    m.laws.of<MohrCoulomb>()->poisson_ratio = 0.3;
+    m.laws.of<MohrCoulomb>()->cohesion = log_uniform(1.0, 1e5);
+    m.laws.of<MohrCoulomb>()->friction_angle = uniform(0.0, 0.8);
   }
   FemConfig c = config(m, height * uniform(-0.2, 1.5));
   c.sides.kind = SideKind::fixed;
