@@ -3,6 +3,7 @@
 #include "constitutive/concept.hpp"
 #include "constitutive/gap.hpp"
 #include "constitutive/softening.hpp"
+#include "core/elementary.hpp"
 
 #include <cmath>
 #include <limits>
@@ -40,8 +41,8 @@ struct DruckerPrager {
     double alpha, k;
     static Cone fit(double cohesion, double phi, double beta) {
       const double flat = std::sqrt(1.0 - beta * beta / 3.0);
-      const double alpha = std::sin(phi) / (flat + beta * std::sin(phi) / 3.0);
-      return {alpha, cohesion * std::cos(phi) * (1.0 - alpha * beta / 3.0) / flat};
+      const double alpha = sin(phi) / (flat + beta * sin(phi) / 3.0);
+      return {alpha, cohesion * cos(phi) * (1.0 - alpha * beta / 3.0) / flat};
     }
   };
   struct Constants {
@@ -57,7 +58,7 @@ struct DruckerPrager {
     return Elasticity::from_young(p.youngs_modulus, p.poisson_ratio);
   }
   static Constants constants(const Params& p, double softening_scale) {
-    const double sin_psi = std::sin(p.dilation_angle);
+    const double sin_psi = sin(p.dilation_angle);
     const double beta = sin_psi / std::sqrt(1.0 + sin_psi * sin_psi / 3.0);
     const double c_residual = p.residual_cohesion.value_or(p.cohesion);
     const Cone peak = Cone::fit(p.cohesion, p.friction_angle, beta);

@@ -1,5 +1,7 @@
 #include "fem/solver.hpp"
 
+#include "core/elementary.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -100,8 +102,8 @@ void let_hourglass_yield(Solver& s) {
     if (std::holds_alternative<PM4Sand::Params>(law)) {
       s.hourglass_strength[m] = {0.0, 0.5 * s.laws.pm4sand[m].M};
     } else if (const auto* mc = std::get_if<MohrCoulomb::Params>(&law)) {
-      s.hourglass_strength[m] = {mc->cohesion * std::cos(mc->friction_angle),
-                                 std::sin(mc->friction_angle)};
+      s.hourglass_strength[m] = {mc->cohesion * cos(mc->friction_angle),
+                                 sin(mc->friction_angle)};
     } else {
       s.hourglass_strength[m] = {std::numeric_limits<double>::infinity(), 0.0};
     }

@@ -1,6 +1,7 @@
 #include "transfer/radial.hpp"
 
 #include "core/check.hpp"
+#include "core/elementary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -75,7 +76,7 @@ double multiquadric_epsilon(const std::vector<Vec2>& centres) {
   }
   validate(edges > 0, "all {} element centres lie in one point (no spacing can be found)",
            centres.size());
-  return std::pow(product / static_cast<double>(centres.size()), 1.0 / edges);
+  return pow(product / static_cast<double>(centres.size()), 1.0 / edges);
 }
 
 Eigen::MatrixXd interpolate_multiquadric(const std::vector<Vec2>& centres,

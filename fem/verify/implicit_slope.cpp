@@ -1,3 +1,4 @@
+#include "core/elementary.hpp"
 #include "fem/implicit.hpp"
 #include "fem/verify/list.hpp"
 #include "fem/verify/scene.hpp"
@@ -13,7 +14,7 @@ namespace {
 constexpr double kEnd = 3.0, kSample = 0.02, kThreshold = 0.7, kStiffness = 476.0;
 
 double ground(double t) {
-  return 0.25 * std::min(1.0, t) * std::sin(2.0 * kPi * 1.5 * t);  // up to 0.24 g
+  return 0.25 * std::min(1.0, t) * sin(2.0 * kPi * 1.5 * t);  // up to 0.24 g
 }
 
 Solver slope(double G0) {
@@ -103,7 +104,7 @@ History shake_implicitly(const ImplicitSettings& settings) {
 double difference(const History& a, const History& b) {
   double sum = 0.0, largest = 0.0;
   for (std::size_t i = 0; i < b.crest.size(); ++i) {
-    sum += std::pow(a.crest[i] - b.crest[i], 2);
+    sum += pow(a.crest[i] - b.crest[i], 2);
     largest = std::max(largest, std::abs(b.crest[i]));
   }
   return std::sqrt(sum / static_cast<double>(b.crest.size())) / largest;
