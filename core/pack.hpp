@@ -137,13 +137,6 @@ inline Pack gather_pack(const double* from, const std::int32_t* index) {
 #endif
 }
 
-/// Sum of the first `count` lanes, in lane order.
-inline double sum_lanes(Pack x, int count) {
-  double s = 0.0;
-  for (int i = 0; i < count; ++i) s += x.v[i];
-  return s;
-}
-inline double sum_lanes(double x, int) { return x; }
 inline double max_lanes(double x) { return x; }
 inline double max_lanes(Pack x) {
   double s = x.v[0];

@@ -67,10 +67,6 @@ template <>
 inline auto first_lanes<PackPair>(int n) {
   return PackPairMask{first_lanes<Pack>(n), first_lanes<Pack>(n - Pack::lanes)};
 }
-inline double sum_lanes(PackPair x, int count) {
-  const double first = sum_lanes(x.a, std::min(count, Pack::lanes));
-  return first + sum_lanes(x.b, std::max(0, count - Pack::lanes));
-}
 inline double max_lanes(PackPair x) { return max(max_lanes(x.a), max_lanes(x.b)); }
 
 /// A sum over neighbouring points, kLanes<T> at a time, whose order of additions is the same for
