@@ -21,18 +21,6 @@ double multiquadric(const Vec2& a, const Vec2& b, double epsilon) {
   return std::sqrt(r * r + 1.0);
 }
 
-/// Eigen divides its matrix products by the number of threads, which changes the order of sums.
-class OneEigenThread {
- public:
-  OneEigenThread() : before_(Eigen::nbThreads()) { Eigen::setNbThreads(1); }
-  ~OneEigenThread() { Eigen::setNbThreads(before_); }
-  OneEigenThread(const OneEigenThread&) = delete;
-  OneEigenThread& operator=(const OneEigenThread&) = delete;
-
- private:
-  int before_;
-};
-
 Eigen::MatrixXd weights(const std::vector<Vec2>& centres, const Eigen::MatrixXd& values,
                         double epsilon) {
   const auto n = static_cast<Eigen::Index>(centres.size());
@@ -41,7 +29,6 @@ Eigen::MatrixXd weights(const std::vector<Vec2>& centres, const Eigen::MatrixXd&
     for (Eigen::Index i = 0; i < n; ++i)
       matrix(i, j) = multiquadric(centres[i], centres[j], epsilon);
   }
-  const OneEigenThread one_thread;
   const Eigen::PartialPivLU<Eigen::MatrixXd> lu(matrix);
   Eigen::MatrixXd w = lu.solve(values);
   const Eigen::MatrixXd residual = matrix * w - values;
