@@ -11,10 +11,12 @@
 namespace flowslide::fem {
 namespace {
 
-constexpr double kEnd = 3.0, kSample = 0.02, kThreshold = 0.7, kStiffness = 476.0;
+// Shortly after the sand has liquefied. While it flows on, a change of 1e-15 in the motion grows to
+// some hundredths of the pore pressure within 3 s.
+constexpr double kEnd = 1.0, kSample = 0.02, kThreshold = 0.7, kStiffness = 476.0;
 
 double ground(double t) {
-  return 0.25 * std::min(1.0, t) * sin(2.0 * kPi * 1.5 * t);  // up to 0.24 g
+  return 0.4 * std::min(1.0, t) * sin(2.0 * kPi * 1.5 * t);  // up to 0.38 g
 }
 
 Solver slope(double G0) {
@@ -118,8 +120,7 @@ std::vector<Check> verify_implicit_slope(std::string_view name) {
   const History implicit = shake_implicitly({.step = 5e-3});
   checks.at_least("r_u", direct.r_u, 0.3);
   checks.at_most("liquefied_at", direct.liquefied, 0.8 * kEnd, "s");
-  // Sand that liquefies follows small causes: explicit steps a quarter as long are another answer,
-  // and the implicit one is not farther away.
+  // Explicit steps a quarter as long are another answer, and the implicit one is about as far away.
   checks.error("crest", difference(implicit, direct), 0.02);
   checks.error("crest_explicit_quarter", difference(shorter, direct), 0.02);
   checks.near("r_u_implicit", implicit.r_u, direct.r_u, 0.04);
