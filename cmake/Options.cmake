@@ -4,6 +4,12 @@ target_include_directories(flowslide_options INTERFACE "${PROJECT_SOURCE_DIR}")
 # No -ffast-math: NaN means "unset" and results must not depend on reordering. These two only
 # free the compiler from errno and floating-point exceptions, which nothing here reads.
 target_compile_options(flowslide_options INTERFACE -fno-math-errno -fno-trapping-math)
+# The same bits on every machine (docs/adr/0002): no fused multiply-add where the compiler happens
+# to see one, and Eigen's sums neither in the width of a register, nor in blocks that suit the
+# cache, nor dealt to threads.
+target_compile_options(flowslide_options INTERFACE -ffp-contract=off)
+target_compile_definitions(flowslide_options INTERFACE
+  EIGEN_DONT_VECTORIZE EIGEN_NO_CPUID EIGEN_DONT_PARALLELIZE)
 if(FLOWSLIDE_ARCH)
   target_compile_options(flowslide_options INTERFACE "-march=${FLOWSLIDE_ARCH}")
 endif()

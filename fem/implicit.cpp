@@ -1,5 +1,6 @@
 #include "fem/implicit.hpp"
 
+#include "core/elementary.hpp"
 #include "fem/element_loops.hpp"
 
 #include <algorithm>
@@ -189,7 +190,7 @@ void ImplicitSteps::accept(Solver& s, const Base& base) {
     energy.kinetic += 0.5 * m * after * after;
     energy.deformation += s.dt * internal_[u] * v;
     // what the rule itself takes from the motion where theta is above 1/2 is damping, too
-    energy.damping += s.dt * lost * v + (settings_.theta - 0.5) * m * std::pow(after - before, 2);
+    energy.damping += s.dt * lost * v + (settings_.theta - 0.5) * m * pow(after - before, 2);
     energy.weight += s.dt * weight * v;
     energy.base += s.dt * drive * v;
     t.velocity[u] = after;

@@ -1,5 +1,7 @@
 #include "fem/solver.hpp"
 
+#include "core/elementary.hpp"
+
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,7 @@
 #include "motion/butterworth.hpp"
 
 #include "core/conventions.hpp"
+#include "core/elementary.hpp"
 
 #include <algorithm>
 
@@ -17,10 +18,10 @@ struct Section {
 /// Poles of the Butterworth circle in pairs, s^2 + 2 sin(theta) s + 1, by the bilinear transform
 /// with the corner prewarped.
 std::vector<Section> design(Side side, int order, double corner, double dt) {
-  const double k = std::tan(kPi * corner * dt);
+  const double k = tan(kPi * corner * dt);
   std::vector<Section> sections;
   for (int i = 0; i < order / 2; ++i) {
-    const double c = 2.0 * std::sin(kPi * (2 * i + 1) / (2.0 * order));
+    const double c = 2.0 * sin(kPi * (2 * i + 1) / (2.0 * order));
     const double norm = 1.0 / (1.0 + c * k + k * k);
     const double b = side == Side::low ? k * k * norm : norm;
     sections.push_back({b, side == Side::low ? 2.0 * b : -2.0 * b, b, 2.0 * (k * k - 1.0) * norm,

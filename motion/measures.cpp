@@ -1,12 +1,11 @@
 #include "motion/measures.hpp"
 
 #include "core/conventions.hpp"
+#include "motion/fourier.hpp"
 #include "motion/spectrum.hpp"
 
 #include <algorithm>
 #include <bit>
-#include <complex>
-#include <unsupported/Eigen/FFT>
 
 namespace flowslide {
 namespace {
@@ -100,18 +99,16 @@ double mean_period(const GroundMotion& motion) {
   const std::size_t n = std::bit_ceil(static_cast<std::size_t>(needed));
   std::vector<double> padded = motion.acceleration;
   padded.resize(n, 0.0);
-  std::vector<std::complex<double>> c;
-  Eigen::FFT<double> fft;
-  fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
-  fft.fwd(c, padded);
+  const std::vector<std::complex<double>> c = half_spectrum(padded);
 
   const double df = 1.0 / (static_cast<double>(n) * motion.dt);
   double weighted = 0.0, weights = 0.0;
   for (std::size_t k = 1; k < c.size(); ++k) {
     const double f = static_cast<double>(k) * df;
     if (f < kLowest || f > kHighest) continue;
-    weights += std::norm(c[k]);
-    weighted += std::norm(c[k]) / f;
+    const double square = c[k].real() * c[k].real() + c[k].imag() * c[k].imag();
+    weights += square;
+    weighted += square / f;
   }
   validate(weights > 0.0,
            "{}: nothing between {} and {} Hz (the mean period is taken there) check the time step "

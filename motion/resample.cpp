@@ -1,4 +1,5 @@
 #include "core/conventions.hpp"
+#include "core/elementary.hpp"
 #include "motion/process.hpp"
 
 #include <algorithm>
@@ -9,12 +10,18 @@ namespace {
 constexpr double kHalfWidth = 32.0;  // zero crossings of the sinc on each side
 constexpr double kKaiser = 8.0;      // side lobes 80 dB down
 
-double sinc(double x) { return x == 0.0 ? 1.0 : std::sin(kPi * x) / (kPi * x); }
+double sinc(double x) { return x == 0.0 ? 1.0 : sin(kPi * x) / (kPi * x); }
+
+/// Modified Bessel function I_0 of a square, sum (x^2/4)^k / k!^2.
+double bessel_of_square(double x2) {
+  double sum = 1.0, term = 1.0;
+  for (int k = 1; term > 1e-17 * sum; ++k) sum += term *= 0.25 * x2 / (double(k) * k);
+  return sum;
+}
 
 double kaiser(double x) {
-  static const double kNorm = std::cyl_bessel_i(0.0, kKaiser);
-  return std::abs(x) >= 1.0 ? 0.0
-                            : std::cyl_bessel_i(0.0, kKaiser * std::sqrt(1.0 - x * x)) / kNorm;
+  static const double kNorm = bessel_of_square(kKaiser * kKaiser);
+  return std::abs(x) >= 1.0 ? 0.0 : bessel_of_square(kKaiser * kKaiser * (1.0 - x * x)) / kNorm;
 }
 
 double linear_at(const std::vector<double>& a, double place) {

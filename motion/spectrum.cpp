@@ -1,6 +1,7 @@
 #include "motion/spectrum.hpp"
 
 #include "core/conventions.hpp"
+#include "core/elementary.hpp"
 #include "motion/measures.hpp"
 
 #include <algorithm>
@@ -15,9 +16,9 @@ class Oscillator {
   Oscillator(double omega, double damping, double dt)
       : dt_(dt), omega2_(omega * omega), lag_(2.0 * damping / omega) {
     const double root = std::sqrt(1.0 - damping * damping);
-    const double decay = std::exp(-damping * omega * dt);
-    const double c = decay * std::cos(omega * root * dt);
-    const double s = decay * std::sin(omega * root * dt);
+    const double decay = exp(-damping * omega * dt);
+    const double c = decay * cos(omega * root * dt);
+    const double s = decay * sin(omega * root * dt);
     uu_ = c + damping / root * s;
     uv_ = s / (omega * root);
     vu_ = -omega * s / root;

@@ -1,6 +1,7 @@
 #include "mpm/height_field.hpp"
 
 #include "core/check.hpp"
+#include "core/elementary.hpp"
 #include "core/odd_characters.hpp"
 #include "core/unreadable.hpp"
 
@@ -21,7 +22,7 @@ struct Cell {
 };
 
 Cell find_cell(const HeightField& f, double x, double y) {
-  const double c = std::cos(f.place.heading), s = std::sin(f.place.heading);
+  const double c = cos(f.place.heading), s = sin(f.place.heading);
   const double east = f.place.origin[0] + c * x - s * y;
   const double north = f.place.origin[1] + s * x + c * y;
   const double i = std::clamp((east - f.corner[0]) / f.spacing, 0.0, f.columns - 1.0);

@@ -1,3 +1,4 @@
+#include "core/elementary.hpp"
 #include "mpm/place_terrain.hpp"
 
 /// Where walls act: wall points on the grid lines that the ground and the rollers cross.
@@ -12,7 +13,7 @@ struct Piece {
   [[nodiscard]] bool steep() const { return std::abs(y1 - y0) > x1 - x0; }
   [[nodiscard]] std::array<double, 2> normal() const {
     if (y0 == y1) return {0.0, 1.0};
-    const double length = std::hypot(x1 - x0, y1 - y0);
+    const double length = hypot(x1 - x0, y1 - y0);
     return {(y0 - y1) / length, (x1 - x0) / length};
   }
 };

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/elementary.hpp"
 #include "mpm/hold_asleep.hpp"
 #include "mpm/p2g.hpp"
 #include "mpm/remap.hpp"
@@ -99,7 +100,7 @@ void step(Simulation<Dim>& s, StepScratch<Dim>& scratch) {
   const auto blocks = static_cast<std::int32_t>(s.grid.blocks.size());
   const MomentumSettings momentum{dt, s.settings.gravity, s.settings.cundall};
   const double keep = s.settings.transfer == Transfer::flip ? s.settings.flip_share
-                                                            : std::exp(-dt / s.settings.relaxation);
+                                                            : exp(-dt / s.settings.relaxation);
   const Update update = s.settings.update;
   // With musl positions stay until the new velocities have been mapped back.
   auto& moved = update == Update::musl ? scratch.moved : s.points.x;

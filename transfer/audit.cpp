@@ -1,5 +1,6 @@
 #include "transfer/audit.hpp"
 
+#include "core/elementary.hpp"
 #include "core/files.hpp"
 #include "model/shape_quad.hpp"
 #include "transfer/gauss_rule.hpp"
@@ -26,7 +27,7 @@ void add_motion(const SeedDomain& domain, const std::vector<Vec2>& velocity, std
                        jacobian(reference, rule.point[i], rule.point[j]);
       const Vec2 u = interpolate(v, rule.point[i], rule.point[j]);
       for (int k = 0; k < 2; ++k) sum.momentum[k] += m * u[k];
-      sum.speed_sum += m * std::hypot(u[0], u[1]);
+      sum.speed_sum += m * hypot(u[0], u[1]);
       sum.kinetic_energy += 0.5 * m * (u[0] * u[0] + u[1] * u[1]);
     }
   }
@@ -94,7 +95,7 @@ StateIntegrals integrate(const ParticleSet& particles) {
     for (int i = 0; i < 4; ++i) sum.stress[i] += v * particles.stress[p][i];
     sum.overburden += v * std::abs(particles.stress[p][1]);
     for (int k = 0; k < 2; ++k) sum.momentum[k] += m * u[k];
-    sum.speed_sum += m * std::hypot(u[0], u[1]);
+    sum.speed_sum += m * hypot(u[0], u[1]);
     sum.kinetic_energy += 0.5 * m * (u[0] * u[0] + u[1] * u[1]);
   }
   return sum;

@@ -1,5 +1,6 @@
 #include "transfer/map_fields.hpp"
 
+#include "core/elementary.hpp"
 #include "transfer/point_map.hpp"
 
 #include <algorithm>
@@ -31,7 +32,7 @@ SourceSet gather(const MappedState& state, const SeedSet& seeds, UseElement use_
     if (!use_element(e)) continue;
     const std::array<Vec2, 4> q = corners(state.mesh, state.positions, e);
     const auto mid_line = [&q](int a, int b, int c, int d) {
-      return 0.5 * std::hypot(q[a][0] + q[b][0] - q[c][0] - q[d][0],
+      return 0.5 * hypot(q[a][0] + q[b][0] - q[c][0] - q[d][0],
                               q[a][1] + q[b][1] - q[c][1] - q[d][1]);
     };
     source_of[e] = static_cast<std::int32_t>(s.sources.size());

@@ -1,6 +1,7 @@
 #include "transfer/out_of_balance.hpp"
 
 #include "core/conventions.hpp"
+#include "core/elementary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -88,7 +89,7 @@ OutOfBalance out_of_balance(const ParticleSet& particles, double cell, Vec2 orig
           interior = volume[at(a, b)] >= full_cell * cell * cell;
       if (!interior) continue;
       const Node& n = nodes[at(i, j)];
-      const double acceleration = std::hypot(n.fx, n.fy) / (n.mass * kGravity);
+      const double acceleration = hypot(n.fx, n.fy) / (n.mass * kGravity);
       sum += acceleration * acceleration;
       ++result.nodes;
       if (!(acceleration <= result.max)) {

@@ -1,5 +1,7 @@
 #include "transfer/point_map.hpp"
 
+#include "core/elementary.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -85,7 +87,7 @@ bool fit_linear(std::span<const MlsSource> sources, const std::vector<std::int32
   };
   for (const std::int32_t k : candidates) {
     const Eigen::Vector3d b = basis(k);
-    const double s = std::hypot(b[1], b[2]);
+    const double s = hypot(b[1], b[2]);
     if (!(s < 1.0)) continue;
     const double w = quartic_spline(s);
     moments += w * b * b.transpose();

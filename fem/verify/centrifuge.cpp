@@ -1,3 +1,4 @@
+#include "core/elementary.hpp"
 #include "fem/verify/list.hpp"
 #include "fem/verify/scene.hpp"
 
@@ -33,7 +34,7 @@ FemMaterialConfig nevada_sand() {
 double ground(double amplitude, double t) {
   const double cycles = kFrequency * t, w = 2.0 * kPi * kFrequency;
   const double envelope = std::clamp(0.5 * std::min(cycles, kCycles - cycles), 0.0, 1.0);
-  return envelope * amplitude * kGravity / w * std::sin(w * t);
+  return envelope * amplitude * kGravity / w * sin(w * t);
 }
 
 struct Outcome {
@@ -53,7 +54,7 @@ Outcome shake(double amplitude, double slope) {
   const double buoyant = 1.0 - kWater / c.materials["soil"].density;
   const std::vector<double> weight = make_solver(model, {}).layout.weight;
   for (std::size_t i = 0; i < model.mesh.num_nodes(); i += 2)
-    model.load[model.dof[i][0]] -= buoyant * weight[model.dof[i][1]] * std::sin(slope);
+    model.load[model.dof[i][0]] -= buoyant * weight[model.dof[i][1]] * sin(slope);
   Solver s = at_rest(model, c);
   const std::vector<double> still = s.state.pressure;
   const double effective = (c.materials["soil"].density - kWater) * kGravity;

@@ -1,3 +1,4 @@
+#include "core/elementary.hpp"
 #include "core/temporary_folder.hpp"
 #include "fem/verify/list.hpp"
 #include "fem/verify/scene.hpp"
@@ -122,7 +123,7 @@ double tip_ratio(const Cantilever& beam) {
   s.dt = 0.9 * stable_step({soil_frequency(s), 0.0}, 0.0);
   while (s.state.time < beam.duration / omega) advance(s, {});
   const double weight = kBeamDensity * 9.81 * kBeamDepth;
-  const double bending = weight * std::pow(kBeamLength, 4) / (8.0 * plane * kBeamDepth / 12.0);
+  const double bending = weight * pow(kBeamLength, 4) / (8.0 * plane * kBeamDepth / 12.0);
   const double shear =
       weight * kBeamLength * kBeamLength / (2.0 * 5.0 / 6.0 * s.shear[0] * kBeamDepth);
   return -s.state.displacement[model.dof[columns][1]] / (bending + shear);
@@ -207,7 +208,7 @@ Shaken shaken_column(double courant, double increment) {
   FemConfig c = config(m, 10.0);
   c.damping.stiffness = 1e-3;
   Solver s = at_rest(section({.columns = 1, .rows = 10, .width = 2.0, .height = 10.0}), c, courant);
-  const auto ground = [](double t) { return 0.08 * std::sin(2.0 * kPi * 1.5 * t); };
+  const auto ground = [](double t) { return 0.08 * sin(2.0 * kPi * 1.5 * t); };
   const std::int32_t top = s.model.dof.back()[0];
   Shaken r;
   while (s.state.time < 2.0) {
@@ -259,7 +260,7 @@ Outcome hostile(std::mt19937& random) {
     return a + (b - a) * static_cast<double>(random()) / 4294967296.0;
   };
   const auto log_uniform = [&](double a, double b) {
-    return std::exp(uniform(std::log(a), std::log(b)));
+    return exp(uniform(log(a), log(b)));
   };
   const double height = log_uniform(0.5, 30.0);
   SectionMesh mesh = section({.columns = 4,
@@ -297,7 +298,7 @@ Outcome hostile(std::mt19937& random) {
     c.output_interval = 0.5 * *c.end;
     GroundMotion motion{.dt = 0.01 * *c.end, .acceleration = {}, .origin = "sine"};
     for (int i = 0; i <= 100; ++i)
-      motion.acceleration.push_back(amplitude * std::sin(w * motion.dt * i));
+      motion.acceleration.push_back(amplitude * sin(w * motion.dt * i));
     run_fem(mesh, motion, c, paths, 1, {});
     return finite(FemHistory(paths.history)) ? Outcome::finished : Outcome::bad;
   } catch (const Error& e) {

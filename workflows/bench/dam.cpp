@@ -1,5 +1,6 @@
 #include "workflows/bench/dam.hpp"
 
+#include "core/elementary.hpp"
 #include "core/temporary_folder.hpp"
 #include "fem/run.hpp"
 #include "model/history.hpp"
@@ -89,7 +90,7 @@ GroundMotion strong() {
   GroundMotion m{.dt = 0.01, .acceleration = {}, .origin = "sine of 0.3 g"};
   for (int i = 0; i <= std::lround(kEnd / m.dt); ++i) {
     const double t = m.dt * i;
-    m.acceleration.push_back(0.3 * kGravity * std::min(1.0, t / 0.4) * std::sin(5.0 * kPi * t));
+    m.acceleration.push_back(0.3 * kGravity * std::min(1.0, t / 0.4) * sin(5.0 * kPi * t));
   }
   return m;
 }
@@ -123,7 +124,7 @@ Outcome shake(const SectionMesh& mesh, const FemConfig& config) {
   double base = 0.0, bases = 0.0, nearest = 1e300;
   for (std::size_t i = 0; i < mesh.mesh.num_nodes(); ++i) {
     const auto [x, y] = mesh.mesh.nodes[i];
-    const double distance = std::hypot(x + 20.0, y - 30.0);
+    const double distance = hypot(x + 20.0, y - 30.0);
     if (distance < nearest) nearest = distance, r.crest = end.displacement[i][0];
     if (y < -5.0 + 1e-9) base += end.displacement[i][0], bases += 1.0;
   }

@@ -11,7 +11,7 @@ namespace {
 struct MeshSectionStage {
   static constexpr std::string_view name = "mesh.section";
   static constexpr std::string_view doc = "Meshes a section of blocks with quadrilaterals.";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   static constexpr bool checkpoints = false;
   using Config = SectionConfig;
   struct Inputs {
