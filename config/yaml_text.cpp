@@ -16,7 +16,7 @@ namespace flowslide::yaml {
 namespace {
 
 /// The tree of a text takes about 60 times its size in memory, and 4 s for each MiB.
-constexpr std::size_t kMaxBytes = 1u << 20u;
+constexpr std::size_t kMaxBytes = 2u << 20u;
 
 /// Bytes of the UTF-8 character at the start of `s`; 0 if there is none (RFC 3629).
 std::size_t utf8_length(std::string_view s) {

@@ -84,12 +84,13 @@ template <int Dim>
 bool within_windows(const Simulation<Dim>& s) {
   if (s.drift > kLargestDrift * s.grid.h) return true;
   constexpr int B = kBlockWidth<Dim>;
-  const double shift = visit_basis(s.settings.basis, []<class Basis>(Basis) { return Basis::shift; });
+  const double shift =
+      visit_basis(s.settings.basis, []<class Basis>(Basis) { return Basis::shift; });
   for (const Tile<Dim>& tile : s.tiling.tiles)
     for (std::int32_t q = tile.first; q < tile.last; ++q)
       for (int d = 0; d < Dim; ++d) {
-        const double base =
-            std::floor((s.points.x[d][q] - s.grid.origin[d]) / s.grid.h - shift) - B * tile.block[d];
+        const double cells = (s.points.x[d][q] - s.grid.origin[d]) / s.grid.h;
+        const double base = std::floor(cells - shift) - B * tile.block[d];
         if (!(base >= -1.0 && base <= B)) return false;
       }
   return true;

@@ -151,8 +151,8 @@ Header read_header(GridFile& file) {
   h.columns = static_cast<int>(columns);
   h.rows = static_cast<int>(rows);
   validate(columns * rows <= file.most_numbers(),
-           "{}: the header says {:g} x {:g} heights (the file is too short for so many) it was cut, "
-           "or the header is wrong; copy or export it again",
+           "{}: the header says {:g} x {:g} heights (the file is too short for so many) it was "
+           "cut, or the header is wrong; copy or export it again",
            file.name(), columns, rows);
   h.spacing = need("cellsize");
   validate(h.spacing > 0.0, "{}: cellsize is {:g} (it is a length) check the header", file.name(),

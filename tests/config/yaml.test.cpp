@@ -72,7 +72,7 @@ TEST_CASE("text that is no UTF-8 YAML is refused with its place", "[config]") {
   CHECK(load_problem("a: \xED\xA0\x80\n").find("byte 0xed is not UTF-8") != std::string::npos);
   CHECK(load_problem("a: 1\rb: 2\n").find("case.yaml:1:5: carriage return") == 0);
   CHECK(load_problem("a: \x1b[0m\n").find("case.yaml:1:4: control character 0x1b") == 0);
-  CHECK(load_problem(std::string((1u << 20u) + 1, '#')).find("is larger than 1 MiB") !=
+  CHECK(load_problem(std::string((2u << 20u) + 1, '#')).find("is larger than 2 MiB") !=
         std::string::npos);
 }
 
