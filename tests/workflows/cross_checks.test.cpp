@@ -208,7 +208,7 @@ TEST_CASE("Soils and water of the finite elements have plausible numbers") {
   FemMaterialConfig m;
   m.density = 1870.0;
   m.void_ratio = 0.99;
-  m.linear_elastic = LinearElastic::Params{20e6, 0.3};
+  m.laws.of<LinearElastic>() = LinearElastic::Params{20e6, 0.3};
   sound.materials["tailings"] = m;
   const auto with = [&](auto change) {
     FemConfig c = sound;
@@ -225,7 +225,7 @@ TEST_CASE("Soils and water of the finite elements have plausible numbers") {
   // With a void ratio of 0.3 grains of 2.13 t/m3, with 2.5 of 4.05 t/m3.
   CHECK_THAT(with([](FemConfig&, M& x) { x.void_ratio = 0.3; }).warnings, Contains("grains"));
   CHECK_THAT(with([](FemConfig&, M& x) { x.void_ratio = 9.0; }).errors, Contains("9700 kg/m3"));
-  CHECK_THAT(with([](FemConfig&, M& x) { x.linear_elastic->youngs_modulus = 20.0; }).errors,
+  CHECK_THAT(with([](FemConfig&, M& x) { x.laws.of<LinearElastic>()->youngs_modulus = 20.0; }).errors,
              Contains("youngs_modulus"));
   CHECK_THAT(with([](FemConfig& c, M&) { c.water->bulk_modulus = 2.2e3; }).errors,
              Contains("water.bulk_modulus"));

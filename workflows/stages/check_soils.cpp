@@ -111,11 +111,12 @@ void check_fem_soils(const FemConfig& fem, Findings& found) {
                       where, m.density, m.void_ratio),
           grains, 1.0, "kg/m3", kGrains, "density is that of grains and water together; check both",
           found);
-    const double modulus = m.mohr_coulomb     ? m.mohr_coulomb->youngs_modulus
-                           : m.linear_elastic ? m.linear_elastic->youngs_modulus
-                                              : kUnset;
-    if (is_set(modulus))
-      judge(where + ".youngs_modulus", modulus, 1e6, "MPa", kStiffness, kUnitHint, found);
+    ShakingLaws::each([&]<class M>() {
+      if (const auto& law = m.laws.of<M>())
+        if constexpr (requires { law->youngs_modulus; })
+          judge(where + ".youngs_modulus", law->youngs_modulus, 1e6, "MPa", kStiffness, kUnitHint,
+                found);
+    });
   }
   if (fem.water) {
     judge("water.bulk_modulus", fem.water->bulk_modulus, 1e6, "MPa", kWaterStiffness,

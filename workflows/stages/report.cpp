@@ -37,6 +37,7 @@ struct ReportStage {
   static std::vector<std::string> programs(const Config& config) {
     if (!config.figures || !config.python) return {};
     return {*config.python};
+  }
   static std::any preview(const Config& config, const Previews& in, Findings& found) {
     Preview p = merged(in);
     if (p.flow && p.flow->extrude)
