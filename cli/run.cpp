@@ -56,12 +56,15 @@ std::string no_runout(const nlohmann::json& result) {
 void print_result(const fs::path& folder, std::size_t warnings) {
   std::ifstream in(folder / kResultFile);
   const auto result = nlohmann::json::parse(in);
+  const bool narrow = ::isatty(STDOUT_FILENO) == 1 && terminal_columns(STDOUT_FILENO) < 60;
+  const int label = narrow ? 24 : 30;
   const auto line = [&](const char* key, const std::string& text, const char* unit) {
     if (result[key].is_number())
-      fmt::print("{:<30} {:.4g}{}{}\n", text, result[key].get<double>(), *unit ? " " : "", unit);
+      fmt::print("{:<{}} {:.4g}{}{}\n", text, label, result[key].get<double>(),
+                 *unit ? " " : "", unit);
   };
   if (result["runout_m"].is_number() && result["runout_m"].get<double>() == 0.0)
-    fmt::print("{:<30} {}\n", "runout", no_runout(result));
+    fmt::print("{:<{}} {}\n", "runout", label, no_runout(result));
   else
     line("runout_m", "runout", "m");
   constexpr std::string_view depth = "liquefaction_depth_";
@@ -74,8 +77,8 @@ void print_result(const fs::path& folder, std::size_t warnings) {
   line("transfer_time_s", "transfer at", "s");
   line("mass_error", "mass error", "");
   line("energy_error", "energy error", "");
-  if (warnings > 0) fmt::print("{:<30} {}, see above\n", "warnings before use", warnings);
-  fmt::print("{:<30} {}\n", "result", (folder / kResultFile).string());
+  if (warnings > 0) fmt::print("{:<{}} {}, see above\n", "warnings before use", label, warnings);
+  fmt::print("{:<{}} {}\n", "result", label, (folder / kResultFile).string());
 }
 
 int run(const RunArguments& args) {
