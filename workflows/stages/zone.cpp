@@ -32,7 +32,7 @@ std::vector<std::string> zone_warnings(const LiquefactionZone& zone, const ZoneC
 struct ZoneStage {
   static constexpr std::string_view name = "transfer.zone";
   static constexpr std::string_view doc = "Finds the liquefied zone and the time of transfer.";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   static constexpr bool checkpoints = false;
   using Config = ZoneConfig;
   struct Inputs {
