@@ -63,13 +63,15 @@ void print_result(const fs::path& folder, std::size_t warnings) {
     throw FileError(
         fmt::format("{}: cannot be read back ({})", (folder / kResultFile).string(), file.problem));
   const nlohmann::ordered_json& result = *file.json;
+  const bool narrow = ::isatty(STDOUT_FILENO) == 1 && terminal_columns(STDOUT_FILENO) < 60;
+  const int label = narrow ? 24 : 30;
   const auto line = [&](const std::string& key, const std::string& text, const char* unit) {
     if (const auto at = result.find(key); at != result.end() && at->is_number())
-      fmt::print("{:<30} {:.4g}{}{}\n", text, at->get<double>(), *unit ? " " : "", unit);
+      fmt::print("{:<{}} {:.4g}{}{}\n", text, label, at->get<double>(), *unit ? " " : "", unit);
   };
   const auto runout = result.find("runout_m");
   if (runout != result.end() && runout->is_number() && runout->get<double>() == 0.0)
-    fmt::print("{:<30} {}\n", "runout", no_runout(result));
+    fmt::print("{:<{}} {}\n", "runout", label, no_runout(result));
   else
     line("runout_m", "runout", "m");
   constexpr std::string_view depth = "liquefaction_depth_";
@@ -82,8 +84,8 @@ void print_result(const fs::path& folder, std::size_t warnings) {
   line("transfer_time_s", "transfer at", "s");
   line("mass_error", "mass error", "");
   line("energy_error", "energy error", "");
-  if (warnings > 0) fmt::print("{:<30} {}, see above\n", "warnings before use", warnings);
-  fmt::print("{:<30} {}\n", "result", (folder / kResultFile).string());
+  if (warnings > 0) fmt::print("{:<{}} {}, see above\n", "warnings before use", label, warnings);
+  fmt::print("{:<{}} {}\n", "result", label, (folder / kResultFile).string());
 }
 
 int run(const RunArguments& args) {

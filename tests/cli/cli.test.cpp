@@ -343,9 +343,9 @@ TEST_CASE("warnings of an import are on the terminal, in the result, and told ag
   CHECK_THAT(read_text_file(scratch / "out/result.json"),
              Contains("\"warnings\": [\n    \"shake: g"));
   o = run(scratch, shake());
-  CHECK_THAT(o.out, Contains("up to date, 1 warning:"));
+  CHECK_THAT(o.out, Contains("up to date, 2 warnings (above)"));
   CHECK_THAT(o.err, Contains("total vertical stress"));
-  CHECK_THAT(call(scratch, "check w.yaml").out, Contains("1 stages, 1 warning"));
+  CHECK_THAT(call(scratch, "check w.yaml").out, Contains("1 stages, 2 warnings"));
 }
 
 TEST_CASE("lines fit the terminal", "[cli]") {

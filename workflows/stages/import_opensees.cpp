@@ -12,7 +12,7 @@ namespace {
 struct ImportOpenSees {
   static constexpr std::string_view name = "import.opensees";
   static constexpr std::string_view doc = "Reads mesh and recorders of an OpenSees model.";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   static constexpr bool checkpoints = false;
   using Config = OpenSeesConfig;
   struct Inputs {
