@@ -169,13 +169,12 @@ HeightField read_height_field(const std::filesystem::path& path, const MapPlace&
   f.place = place;
   f.source = file.name();
   f.first_line = file.line();
-  // Grows with what the file holds: a header alone must not take the memory of the machine.
-  std::vector<double>& height = f.height;
-  for (int row = 0; row < f.rows; ++row) {
+  f.height.resize(std::size_t(f.columns) * f.rows);
+  for (int row = f.rows - 1; row >= 0; --row) {
     validate(!file.words().empty(),
              "{}: ends after {} rows of heights (the header says nrows {}) the file was cut; copy "
              "or export it again",
-             file.place(), row, f.rows);
+             file.place(), f.rows - 1 - row, f.rows);
     validate(std::ssize(file.words()) == f.columns,
              "{}: {} heights in this line (the header says ncols {}) write every row of the grid "
              "on a line of its own",
@@ -183,16 +182,11 @@ HeightField read_height_field(const std::filesystem::path& path, const MapPlace&
     for (int i = 0; i < f.columns; ++i) {
       const double value = file.number(file.words()[i]);
       const bool missing = header.no_data && value == *header.no_data;
-      height.push_back(missing ? kUnset : value);
+      f.height[std::size_t(row) * f.columns + i] = missing ? kUnset : value;
       f.complete = f.complete && !missing;
     }
     file.next();
   }
-  // The file begins with the last row.
-  for (int low = 0, high = f.rows - 1; low < high; ++low, --high)
-    std::swap_ranges(height.begin() + std::ptrdiff_t(low) * f.columns,
-                     height.begin() + std::ptrdiff_t(low + 1) * f.columns,
-                     height.begin() + std::ptrdiff_t(high) * f.columns);
   validate(file.words().empty(),
            "{}: more rows of heights than nrows {} (the header and the rows disagree) export the "
            "terrain anew",
