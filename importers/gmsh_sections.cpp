@@ -3,6 +3,8 @@
 #include "core/units.hpp"
 #include "importers/text_lines.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -35,25 +37,21 @@ class Lines {
   /// Numbers of the next line; at least `least` of them.
   const std::vector<double>& numbers(std::size_t least, std::string_view what) {
     if (!next()) fail(fmt::format("the file ends where {} should stand (it was cut)", what));
-    if (split(line_, what).size() < least)
-      fail(fmt::format("{} numbers, but {} has at least {}", values_.size(), what, least));
-    return values_;
-  }
-  /// Numbers of a text with blanks between them.
-  const std::vector<double>& split(std::string_view text, std::string_view what) {
     values_.clear();
-    std::string_view rest = text;
+    std::string_view rest = line_;
     while (!rest.empty()) {
       double value = 0.0;
       std::size_t length = 0;
       if (!parse_number(rest, value, length) || !std::isfinite(value))
-        fail(fmt::format("'{}' is not {}", text.substr(0, 60), what));
+        fail(fmt::format("'{}' is not {}", line_, what));
       values_.push_back(value);
       rest.remove_prefix(length);
       const auto first = rest.find_first_not_of(" \t");
-      if (first == 0) fail(fmt::format("'{}' is not {}", text.substr(0, 60), what));
+      if (first == 0) fail(fmt::format("'{}' is not {}", line_, what));
       rest.remove_prefix(first == std::string_view::npos ? rest.size() : first);
     }
+    if (values_.size() < least)
+      fail(fmt::format("{} numbers, but {} has at least {}", values_.size(), what, least));
     return values_;
   }
 
@@ -105,12 +103,19 @@ void read_names(Lines& in, GmshFile& file) {
     if (!in.next()) in.fail("the file ends inside $PhysicalNames (it was cut)");
     const std::string line(in.text());
     const auto from = line.find('"'), to = line.rfind('"');
-    if (from == std::string::npos || to <= from)
-      in.fail(fmt::format("'{}' is not: dimension, number, \"name\"", line));
-    const std::vector<double>& v =
-        in.split(std::string_view(line).substr(0, from), "a dimension and a number");
-    if (v.size() != 2) in.fail(fmt::format("'{}' is not: dimension, number, \"name\"", line));
-    file.physical_names[{in.tag(v[0], "dimension"), in.tag(v[1], "physical group")}] =
+    std::array<double, 2> numbers{};
+    std::string_view rest = std::string_view(line).substr(0, std::min(from, line.size()));
+    bool good = from != std::string::npos && to > from;
+    for (double& number : numbers) {
+      std::size_t length = 0;
+      rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
+      good = good && parse_number(rest, number, length);
+      rest.remove_prefix(length);
+      good = good && (rest.empty() || rest[0] == ' ' || rest[0] == '\t');
+    }
+    if (!good || rest.find_first_not_of(" \t") != std::string_view::npos)
+      in.fail(fmt::format("'{}' is not: dimension, number, \"name\"", line.substr(0, 60)));
+    file.physical_names[{in.tag(numbers[0], "dimension"), in.tag(numbers[1], "physical group")}] =
         line.substr(from + 1, to - from - 1);
   }
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -12,6 +13,21 @@ namespace flowslide {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kDeepest = 32;
+
+/// Tables are made by recursion, which an audit from elsewhere must not drive too deep.
+bool is_deep(const Json& json) {
+  std::vector<std::pair<const Json*, std::size_t>> left{{&json, 1}};
+  while (!left.empty()) {
+    const auto [value, depth] = left.back();
+    left.pop_back();
+    if (!value->is_structured()) continue;
+    if (depth > kDeepest) return true;
+    for (const Json& item : *value) left.emplace_back(&item, depth + 1);
+  }
+  return false;
+}
 
 std::string value_text(const Json& value) {
   if (value.is_number_float()) return fmt::format("{:.4g}", value.get<double>());
@@ -89,16 +105,11 @@ std::string audit_tables(const std::filesystem::path& audit) {
     throw FileError(fmt::format(
         "{}: cannot be read (the report shows the audit of the transfer) run the transfer again",
         audit.string()));
-  // Tables are made by recursion, which an audit from elsewhere must not drive too deep.
-  constexpr int kDeepest = 32;
-  const auto bounded = [&](int depth, Json::parse_event_t, const Json&) {
-    validate(depth <= kDeepest, "{}: is nested more than {} deep (no audit is) run the transfer again",
-             audit.string(), kDeepest);
-    return true;
-  };
-  const Json json = Json::parse(file, bounded, false);
+  const Json json = Json::parse(file, nullptr, false);
   validate(json.is_object(), "{}: is not a JSON object (an audit is one) run the transfer again",
            audit.string());
+  validate(!is_deep(json), "{}: is nested more than {} deep (no audit is) run the transfer again",
+           audit.string(), kDeepest);
   std::string rows, tables;
   collect("", json, rows, tables);
   if (!rows.empty()) tables += "| quantity | value |\n|---|---|\n" + rows + "\n";

@@ -2,9 +2,8 @@
 
 #include "tests/config/sample.hpp"
 
-#include <sys/resource.h>
-
 #include <catch2/catch.hpp>
+#include <sys/resource.h>
 
 using namespace flowslide;
 using sample::load_problem;
