@@ -2,10 +2,10 @@
 
 #include "tests/config/sample.hpp"
 
-#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <catch2/catch.hpp>
+#include <sys/resource.h>
 
 using namespace flowslide;
 using sample::load_problem;

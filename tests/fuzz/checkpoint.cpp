@@ -52,7 +52,7 @@ FlowConfig settings() {
   FlowConfig c = mpm::free_space(0.5);
   c.gravity = 9.81;
   c.ground.surface = {{0.0, 0.0}};
-  c.absorbing.left = 0.25;
+  c.absorbing.left = 0.0;
   c.outlet.right = 50.0;
   c.sleep.emplace();
   return c;

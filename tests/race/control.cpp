@@ -18,10 +18,10 @@ int main(int argc, char** argv) {
 #pragma omp for schedule(static)
     for (int i = 0; i < n; ++i) y[i] = x[n - 1 - i];
     if (racy) {
-#pragma omp for schedule(dynamic, 1)
+#pragma omp for schedule(static)
       for (int i = 0; i < n; ++i) sum += y[i];
     } else {
-#pragma omp for schedule(dynamic, 1) reduction(+ : sum)
+#pragma omp for schedule(static) reduction(+ : sum)
       for (int i = 0; i < n; ++i) sum += y[i];
     }
   }
