@@ -21,17 +21,17 @@ struct Two {
 };
 
 /// a + b exactly (Knuth).
-Two sum(double a, double b) {
+constexpr Two sum(double a, double b) {
   const double s = a + b, of_b = s - a;
   return {s, (a - (s - of_b)) + (b - of_b)};
 }
 /// The same for |a| >= |b| (Dekker).
-Two quick_sum(double a, double b) {
+constexpr Two quick_sum(double a, double b) {
   const double s = a + b;
   return {s, b - (s - a)};
 }
 /// a b exactly (Dekker), below 1e290.
-Two product(double a, double b) {
+constexpr Two product(double a, double b) {
   constexpr double kSplit = 0x1p27 + 1.0;
   const double wide_a = kSplit * a, wide_b = kSplit * b;
   const double a1 = wide_a - (wide_a - a), a2 = a - a1;
@@ -45,29 +45,52 @@ double power_of_two(int n) {
   return std::bit_cast<double>(static_cast<std::uint64_t>(n + 1023) << 52);
 }
 
+/// Parts of a power of two into which exp divides its argument.
+constexpr int kSteps = 64;
+
+/// 2^(i/kSteps) in two parts, by the exponential series and exact sums at compile time.
+constexpr std::array<Two, kSteps> kRoots = [] {
+  std::array<Two, kSteps> roots{};
+  for (int i = 0; i < kSteps; ++i) {
+    const double share = static_cast<double>(i) / kSteps;
+    const Two x = quick_sum(share * kLn2High, share * kLn2Low);  // exact products
+    Two term{1.0, 0.0}, total{1.0, 0.0};
+    for (int k = 1; k < 30; ++k) {
+      Two next = product(term.high, x.high);
+      next.low += term.high * x.low + term.low * x.high;
+      const double quotient = next.high / k;
+      const Two back = product(quotient, k);
+      term = quick_sum(quotient, (((next.high - back.high) - back.low) + next.low) / k);
+      const Two s = sum(total.high, term.high);
+      total = quick_sum(s.high, s.low + total.low + term.low);
+    }
+    roots[static_cast<std::size_t>(i)] = total;
+  }
+  return roots;
+}();
+
 /// e^(x + c) for a c that is small against x.
 double exp_of_sum(double x, double c) noexcept {
-  constexpr double kLog2E = 0x1.71547652b82fep+0, kRound = 0x1.8p52;
+  constexpr double kStepsOverLn2 = kSteps * 0x1.71547652b82fep+0, kRound = 0x1.8p52;
   constexpr double kHighest = 709.79, kLowest = -745.2, kPlain = 708.0;
-  if (!(std::abs(x) < kPlain)) {
+  if (!(x < kPlain && x > -kPlain)) {
     if (x > kHighest) return kInfinity;
     if (x < kLowest) return 0.0;
     if (std::isnan(x)) return x;
   }
-  const double n = (x * kLog2E + kRound) - kRound;  // the nearest integer
-  const double high = x - n * kLn2High, low = n * kLn2Low - c;
-  const double r = high - low, rest = (high - r) - low;
-  // e^r - 1 - r over r^2 by its Taylor series, |r| < 0.35
-  const double r2 = r * r, r4 = r2 * r2;
-  const double a = (1.0 / 2 + r * (1.0 / 6)) + r2 * (1.0 / 24 + r * (1.0 / 120));
-  const double b = (1.0 / 720 + r * (1.0 / 5040)) + r2 * (1.0 / 40320 + r * (1.0 / 362880));
-  const double d =
-      (1.0 / 3628800 + r * (1.0 / 39916800)) + r2 * (1.0 / 479001600 + r * (1.0 / 6227020800));
-  const double y = 1.0 + (r + (rest + r2 * (a + r4 * (b + r4 * d))));
-  const int exponent = static_cast<int>(n);
-  if (std::abs(x) < kPlain) return y * power_of_two(exponent);
+  // x = n ln 2/kSteps + r, |r| < 0.0055
+  const double n = (x * kStepsOverLn2 + kRound) - kRound;
+  const double high = x - n * (kLn2High / kSteps), low = n * (kLn2Low / kSteps) - c;
+  const double r = high - low, r2 = r * r;
+  const double series =
+      r + r2 * ((0.5 + r * (1.0 / 6)) + r2 * ((1.0 / 24 + r * (1.0 / 120)) + r2 * (1.0 / 720)));
+  const int whole = static_cast<int>(n), step = whole & (kSteps - 1);
+  const int exponent = (whole - step) / kSteps;
+  const Two root = kRoots[static_cast<std::size_t>(step)];
+  const double rest = root.low + root.high * series;
+  if (x < kPlain && x > -kPlain) return (root.high + rest) * power_of_two(exponent);
   const int half = exponent / 2;
-  return y * power_of_two(half) * power_of_two(exponent - half);
+  return (root.high + rest) * power_of_two(half) * power_of_two(exponent - half);
 }
 
 /// x = 2^exponent m with m between sqrt(1/2) and sqrt(2), for x > 0.

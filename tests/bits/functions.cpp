@@ -1,4 +1,5 @@
 #include "core/elementary.hpp"
+#include "motion/butterworth.hpp"
 #include "motion/measures.hpp"
 #include "motion/process.hpp"
 #include "motion/synthetic.hpp"
