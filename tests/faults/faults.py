@@ -176,15 +176,25 @@ class Worker:
         return problems, said
 
 
-def points(name, prepared, stride):
+def points(scene, name, prepared, stride):
     _, kind, letters = ACTIONS[name]
     calls, places = prepared[4:6]
+    if scene.kills_only:
+        return chosen_kills(calls)[::stride] if name == "kill" else []
     numbers = places if kind == "memory" else [i + 1 for i, c in enumerate(calls) if c in letters]
     if name == "cut":
         numbers.append(len(calls) + 1)  # after the end
     # Strides start anywhere, so that they do not keep step with a pattern of the calls.
     first = random.Random(name).randrange(stride)
     return numbers[first::stride]
+
+
+def chosen_kills(calls):
+    """100 calls at random, 10 renames and what comes after them."""
+    draw = random.Random(11)
+    renames = [i + 1 for i, c in enumerate(calls) if c == "n"]
+    chosen = sorted(draw.sample(renames, 10))
+    return draw.sample(range(1, len(calls) + 1), 100) + chosen + [n + 1 for n in chosen]
 
 
 worker = None
@@ -202,7 +212,7 @@ def work(task):
     done = []
     for name in options.action or ACTIONS:
         stride = 1 if options.full else options.every * STRIDES[name]
-        for number in (options.at or points(name, prepared, stride))[share::shares]:
+        for number in (options.at or points(scene, name, prepared, stride))[share::shares]:
             outcome = worker.inject(scene, prepared, name, number)
             if outcome is None:
                 continue

@@ -169,6 +169,7 @@ class Scene:
     before: list = field(default_factory=list)  # commands that make the state it starts from
     clock: float = 0.0  # so that some checkpoints are written
     continued: bool = False  # starts from the checkpoint of a run that was stopped
+    kills_only: bool = False  # 100 kills at random calls and 20 at and after renames
     damage: str = ""  # a file of a finished run that loses a byte, by the end of its path
 
 
@@ -188,6 +189,7 @@ def scenes():
         result.append(Scene(name, run_command(stage), before, clock))
         if clock:
             result.append(Scene(name + " continued", run_command(stage), before, clock, True))
+    result.append(Scene("all stages", run_command("report"), clock=0.2, kills_only=True))
     result.append(Scene("import.opensees", run_command("shake_again")))
     result.append(Scene("import.mesh", run_command("mesh_again")))
     whole = [run_command("report")]
