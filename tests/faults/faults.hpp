@@ -32,6 +32,7 @@ enum class Action : char {
   kill = 'k',       ///< SIGKILL in its place
   torn = 't',       ///< SIGKILL after half of the bytes
   cut = 'c',        ///< power cut: what was not synced is gone, and the process with it
+  names = 'C',      ///< the same, and renames are undone whose folder was not synced
   stop = 's',       ///< SIGTERM, the call goes well
 };
 

@@ -36,13 +36,14 @@ ACTIONS = {  # name: letter, kind, the calls it is made for
     "kill": ("k", "files", CHANGING),
     "torn": ("t", "files", "w"),
     "cut": ("c", "files", CHANGING),
+    "cut names": ("C", "files", CHANGING),
     "stop": ("s", "files", CHANGING),
     "memory": ("f", "memory", None),
     "no memory": ("d", "memory", None),
 }
 # Every how manieth point is taken in a short run.
 STRIDES = {"fail": 1, "full": 3, "dead": 5, "part": 3, "interrupt": 7, "kill": 2, "torn": 2,
-           "cut": 2, "stop": 9, "memory": 40, "no memory": 200}
+           "cut": 2, "cut names": 3, "stop": 9, "memory": 40, "no memory": 200}
 # A run that is stopped, or whose call was only interrupted or shortened, may end well.
 HARMLESS = {"part", "interrupt", "stop"}
 
@@ -160,7 +161,7 @@ class Worker:
             return None
         now = tree.snapshot(self.root)
         problems = []
-        killed = name in ("kill", "torn", "cut")
+        killed = name in ("kill", "torn", "cut", "cut names")
         allowed = {-signal.SIGKILL, 0} if killed else {0, 4, 130} if name == "stop" else {0, 4}
         if code not in allowed:
             problems.append(f"ends with {code}: {said.strip().splitlines()[-1:]}")
@@ -182,7 +183,7 @@ def points(scene, name, prepared, stride):
     if scene.kills_only:
         return chosen_kills(calls)[::stride] if name == "kill" else []
     numbers = places if kind == "memory" else [i + 1 for i, c in enumerate(calls) if c in letters]
-    if name == "cut":
+    if name.startswith("cut"):
         numbers.append(len(calls) + 1)  # after the end
     # Strides start anywhere, so that they do not keep step with a pattern of the calls.
     first = random.Random(name).randrange(stride)

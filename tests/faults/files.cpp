@@ -78,7 +78,6 @@ ssize_t move(Call call, int file, std::size_t size, F&& real) {
   if (!is_ours(file)) return real(size);
   const int reason = strike(call, call == Call::write ? ENOSPC : EIO);
   if (reason > 0) return failed(reason);
-  if (call == Call::write) note_change(file);
   const ssize_t moved = real(reason == 0 ? size : std::max<std::size_t>(1, size / 2));
   if (reason == kTorn) die();
   return moved;
@@ -210,22 +209,29 @@ ssize_t pread64(int file, void* bytes, size_t size, off_t at) {
 
 int fsync(int file) {
   static auto* const real = next<int(int)>("fsync");
-  return pass(Call::sync, EIO,
-              [&] {
-                note_sync(file);
-                return real(file);
-              },
-              file);
+  const auto sync = [&] {
+    note_sync(file);
+    return real(file);
+  };
+  return pass(Call::sync, EIO, sync, file);
 }
 int fdatasync(int file) { return fsync(file); }
 
 int rename(const char* from, const char* to) noexcept {
   static auto* const real = next<int(const char*, const char*)>("rename");
-  return pass(Call::rename, EIO, [&] { return real(from, to); }, to);
+  const auto move = [&] {
+    if (is_ours(to)) note_rename(AT_FDCWD, from, AT_FDCWD, to);
+    return real(from, to);
+  };
+  return pass(Call::rename, EIO, move, to);
 }
 int renameat(int a, const char* from, int b, const char* to) noexcept {
   static auto* const real = next<int(int, const char*, int, const char*)>("renameat");
-  return pass(Call::rename, EIO, [&] { return real(a, from, b, to); }, b, to);
+  const auto move = [&] {
+    if (is_ours(b, to)) note_rename(a, from, b, to);
+    return real(a, from, b, to);
+  };
+  return pass(Call::rename, EIO, move, b, to);
 }
 int unlink(const char* path) noexcept {
   static auto* const real = next<int(const char*)>("unlink");

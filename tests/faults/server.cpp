@@ -49,6 +49,7 @@ int outcome(Call call, int usual) {
     case Action::torn:
       return call == Call::write ? kTorn : 0;
     case Action::cut:
+    case Action::names:
       lose_unsynced();
       die();
     case Action::stop:
@@ -105,7 +106,7 @@ bool read_line(char* line, int size) {
   armed = true;
   const int code = program(fields - 7, field + 7, environment);
   if (plan.memory) armed = false;
-  if (plan.action == Action::cut) {  // after the last call: what the program called done is kept
+  if (plan.action == Action::cut || plan.action == Action::names) {  // after the last call: what the program called done is kept
     record->fired = 1;
     lose_unsynced();
   }
