@@ -58,7 +58,7 @@ class Program:
 
     def run(self, root, arguments, action="-", kind="files", number=0, clock=0.0):
         """(wait status as an exit code, negative for signals; fired; count; list)"""
-        job = [f"{root}/said", root, kind, action, number, clock, LIMIT, "flowslide", *arguments]
+        job = [f"{root}.said", root, kind, action, number, clock, LIMIT, "flowslide", *arguments]
         self.process.stdin.write("\t".join(map(str, job)) + "\n")
         self.process.stdin.flush()
         answer = self.process.stdout.readline()
@@ -72,17 +72,18 @@ class Program:
 class Worker:
     """A folder of its own with the states from which scenes start."""
 
-    def __init__(self, options, folder):
+    def __init__(self, options, folder, fine=False):
         self.options, self.folder, self.root = options, folder, f"{folder}/root"
         self.program = Program(options.program, options.shim)
-        os.makedirs(self.root)
-        scene_list.write_inputs(f"{self.root}/in")
+        os.makedirs(self.root, exist_ok=True)
+        scene_list.write_inputs(f"{self.root}/in", fine)
         if not options.control:
             self.call(scene_list.run_command("shake", "texts"))
             shutil.copytree(glob.glob(f"{self.root}/texts/stages/shake/*/recorders")[0],
                             f"{self.root}/in/recorders")
             shutil.rmtree(f"{self.root}/texts")
-        shutil.move(f"{self.root}/in", f"{folder}/in")
+        os.makedirs(f"{self.root}/made")
+        shutil.copytree(self.root, f"{folder}/start")
 
     def call(self, command):
         code, *_ = self.program.run(self.root, [w.replace("ROOT", self.root) for w in command])
@@ -90,13 +91,8 @@ class Worker:
             raise RuntimeError(f"{command} ended with {code}: {self.said()}")
 
     def said(self):
-        with open(f"{self.root}/said", errors="replace") as file:
+        with open(f"{self.root}.said", errors="replace") as file:
             return file.read()[-2000:]
-
-    def empty(self):
-        shutil.rmtree(self.root)
-        shutil.copytree(f"{self.folder}/in", f"{self.root}/in")
-        os.makedirs(f"{self.root}/made")
 
     def command(self, scene):
         words = [w.replace("ROOT", self.root) for w in scene.command]
@@ -109,7 +105,7 @@ class Worker:
 
     def prepare(self, scene):
         """Makes the state from which a scene starts, and the undisturbed run."""
-        self.empty()
+        self.restore(f"{self.folder}/start")
         for command in scene.before:
             self.call(command)
         command = self.command(scene)
@@ -147,8 +143,13 @@ class Worker:
         raise RuntimeError(f"{command} leaves no checkpoint wherever it is stopped")
 
     def restore(self, state):
-        shutil.rmtree(self.root)
-        shutil.copytree(state, self.root, symlinks=True)
+        """The folder itself stays; it may be a disk of its own."""
+        for entry in os.scandir(self.root):
+            if entry.is_dir(follow_symlinks=False):
+                shutil.rmtree(entry.path)
+            else:
+                os.remove(entry.path)
+        shutil.copytree(state, self.root, symlinks=True, dirs_exist_ok=True)
 
     def inject(self, scene, prepared, name, number):
         """Problems after a fault at one point, and what the run said; None if it had no such call."""
