@@ -26,6 +26,7 @@ struct BandPass {
 };
 
 /// Throws InputError for corners that are no band of this motion.
-GroundMotion filtered(const GroundMotion& motion, const BandPass& band);
+GroundMotion filtered(const GroundMotion& motion, const BandPass& band,
+                      const Progress& progress = {});
 
 }  // namespace flowslide

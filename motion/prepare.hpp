@@ -36,8 +36,8 @@ struct MotionConfig {
 /// Exactly one of record, preset and synthetic. Throws InputError.
 void check(const MotionConfig& config);
 
-/// Throws FileError, InputError, NumericsError.
-GroundMotion prepare_motion(const MotionConfig& config);
+/// Throws FileError, InputError, NumericsError, Interrupted.
+GroundMotion prepare_motion(const MotionConfig& config, const Progress& progress = {});
 
 template <>
 struct Schema<MotionConfig> {

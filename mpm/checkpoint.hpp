@@ -18,6 +18,7 @@ struct RunState {
   std::array<double, 3> momentum_start{};
   double first_dt = 0.0;                      ///< [s]
   std::int64_t updates = 0;                   ///< sum over the steps of the points awake in them
+  std::int64_t short_steps = 0;               ///< steps in a row far below the first
   std::vector<std::array<double, 2>> recent;  ///< (time, front) of the rest window
 };
 

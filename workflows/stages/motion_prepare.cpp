@@ -23,11 +23,11 @@ struct MotionPrepareStage {
     void visit(auto&& port) { port("motion", motion); }
   };
   static void check(const Config& config) { flowslide::check(config); }
-  static StageResult run(const RunContext&, const Config& config, const Inputs&,
+  static StageResult run(const RunContext& context, const Config& config, const Inputs&,
                          const Outputs& out) {
-    const GroundMotion motion = prepare_motion(config);
+    const GroundMotion motion = prepare_motion(config, context.progress);
     write_motion_file(out.motion.path, motion);
-    const MotionMeasures m = measure(motion);
+    const MotionMeasures m = measure(motion, context.progress);
     const nlohmann::ordered_json facts = {{"motion_pga_m_s2", m.pga},
                                           {"motion_pgv_m_s", m.pgv},
                                           {"motion_arias_m_s", m.arias},
