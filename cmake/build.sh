@@ -31,5 +31,5 @@ quietly() {
   echo "error: '$*' failed; the last lines of its output are above" >&2
   exit 1
 }
-[ -f build/release/build.ninja ] || quietly cmake --preset release
+[ -f build/release/CMakeCache.txt ] && [ -f build/release/build.ninja ] || quietly cmake --preset release
 quietly cmake --build --preset release --target "$1"

@@ -37,6 +37,7 @@ class Descriptor {
   ~Descriptor() {
     if (file_ >= 0) ::close(file_);
   }
+  Descriptor(Descriptor&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
   [[nodiscard]] int get() const { return file_; }
