@@ -24,6 +24,7 @@ void transfer_fields(Archive& a, Sim& s, Run& r) {
   a.value(r.first_dt);
   a.value(r.updates);
   a.value(r.short_steps);
+  a.value(r.energy);
   a.array(r.recent);
   a.value(s.time);
   a.value(s.dt);

@@ -126,8 +126,8 @@ void take_step(Simulation<Dim>& s, StepScratch<Dim>& scratch) {
     if (std::isnan(share))
       throw NumericsError(fmt::format(
           "step {}, t = {:.4g} s: velocities are no longer finite (the state has become "
-          "unphysical) check gravity, tractions, stresses at the start, and strengths and stiffness of the "
-          "materials, or try a smaller courant",
+          "unphysical) check gravity, tractions, stresses at the start, and strengths and stiffness "
+          "of the materials, or try a smaller courant",
           s.step, s.time));
     s.dt *= share;
     if (!once && s.dt > kShortest * whole) continue;

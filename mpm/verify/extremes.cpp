@@ -1,6 +1,7 @@
 #include "mpm/verify/extremes.hpp"
 
 #include "core/temporary_folder.hpp"
+#include "mpm/flow.hpp"
 #include "mpm/verify/list.hpp"
 #include "mpm/verify/trial.hpp"
 
