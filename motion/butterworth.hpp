@@ -1,4 +1,5 @@
 #pragma once
+#include "core/progress.hpp"
 #include "model/ground_motion.hpp"
 
 #include <array>
