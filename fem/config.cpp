@@ -117,7 +117,8 @@ void Schema<IntegrationConfig>::describe(FieldVisitor& v, IntegrationConfig& c) 
              "a step that does not converge is halved down to this, then the run ends");
   v.quantity("tolerance", c.tolerance, Dim::none, {.above = 0.0},
              "largest force out of balance at a node, of its weight");
-  v.integer("max_iterations", c.max_iterations, {.min = 2}, "of a step before it is halved");
+  v.integer("max_iterations", c.max_iterations, {.min = 2, .max = 1000},
+            "of a step before it is halved");
   v.quantity("theta", c.theta, Dim::none, {.min = 0.5, .max = 1.0},
              "weight of the end of the step: 0.5 the trapezoidal rule, 1 Euler's, which damps");
 }

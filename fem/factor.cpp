@@ -1,6 +1,7 @@
 #include "fem/factor.hpp"
 
 #include "core/check.hpp"
+#include "core/memory.hpp"
 
 #include <algorithm>
 #include <array>
@@ -83,6 +84,10 @@ BandFactor::BandFactor(const Sparse& pattern) : n_(static_cast<std::int32_t>(pat
   for (std::int32_t c = 0; c < pattern.outerSize(); ++c)
     for (Sparse::InnerIterator it(pattern, c); it; ++it)
       width_ = std::max(width_, std::abs(position_[it.row()] - position_[c]));
+  const double bytes = 8.0 * n_ * (width_ + 1.0);
+  if (bytes > 1e8)
+    need_memory(bytes, fmt::format("a system of {} unknowns, {} wide,", n_, width_),
+                "use larger elements");
   rows_.resize(static_cast<std::size_t>(n_) * (width_ + 1));
   inverse_.resize(n_);
   work_.resize(n_);

@@ -2,6 +2,7 @@
 
 #include "core/conventions.hpp"
 #include "core/elementary.hpp"
+#include "motion/process.hpp"
 
 #include <algorithm>
 
@@ -57,7 +58,8 @@ void check_corner(const GroundMotion& motion, double corner) {
 
 }  // namespace
 
-GroundMotion filtered(const GroundMotion& motion, const BandPass& band) {
+GroundMotion filtered(const GroundMotion& motion, const BandPass& band,
+                      const Progress& progress) {
   constexpr double kLongestPad = 3600.0;  // [s]
   check(motion);
   validate(band.high_pass || band.low_pass, "a filter without corners (high_pass, low_pass)");
@@ -80,6 +82,10 @@ GroundMotion filtered(const GroundMotion& motion, const BandPass& band) {
   validate(pad_time <= kLongestPad,
            "{}: a corner of {} Hz needs {:.3g} s of padding (no ground motion has such periods)",
            motion.origin, lowest, pad_time);
+  validate(pad_time / motion.dt <= kMostSamples,
+           "{}: a corner of {} Hz needs {:.3g} samples of padding at a step of {} s (at most {:g}) "
+           "raise it, or resample first",
+           motion.origin, lowest, pad_time / motion.dt, motion.dt, kMostSamples);
   const bool zero_phase = band.phase == FilterPhase::zero;
   const auto after = static_cast<std::size_t>(std::ceil(pad_time / motion.dt));
   const std::size_t before = zero_phase ? after : 0;
@@ -87,9 +93,14 @@ GroundMotion filtered(const GroundMotion& motion, const BandPass& band) {
   std::vector<double> x(before, 0.0);
   x.insert(x.end(), motion.acceleration.begin(), motion.acceleration.end());
   x.resize(x.size() + after, 0.0);
-  for (const Section& s : sections) apply(s, x.begin(), x.end());
-  if (zero_phase)
-    for (const Section& s : sections) apply(s, x.rbegin(), x.rend());
+  for (const Section& s : sections) {
+    progress.poll();
+    apply(s, x.begin(), x.end());
+  }
+  for (std::size_t i = 0; zero_phase && i < sections.size(); ++i) {
+    progress.poll();
+    apply(sections[i], x.rbegin(), x.rend());
+  }
 
   GroundMotion out{.dt = motion.dt, .acceleration = std::move(x), .origin = motion.origin};
   if (!band.keep_padding) {

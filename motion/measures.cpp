@@ -117,7 +117,7 @@ double mean_period(const GroundMotion& motion) {
   return weighted / weights;
 }
 
-MotionMeasures measure(const GroundMotion& motion) {
+MotionMeasures measure(const GroundMotion& motion, const Progress& progress) {
   check(motion);
   return {.pga = pga(motion),
           .pgv = pgv(motion),
@@ -125,7 +125,7 @@ MotionMeasures measure(const GroundMotion& motion) {
           .d5_95 = significant_duration(motion),
           .tm = mean_period(motion),
           .cav = cumulative_absolute_velocity(motion),
-          .masi = masi(motion)};
+          .masi = masi(motion, PeakSearch::samples, progress)};
 }
 
 }  // namespace flowslide

@@ -48,8 +48,8 @@ double band_limited_at(const std::vector<double>& a, double place, double cut) {
 
 }  // namespace
 
-GroundMotion resampled(const GroundMotion& motion, double dt, ResampleMethod method) {
-  constexpr double kMostSamples = 2e7;
+GroundMotion resampled(const GroundMotion& motion, double dt, ResampleMethod method,
+                       const Progress& progress) {
   check(motion);
   validate(dt > 0.0 && std::isfinite(dt), "a time step of {} s is not positive", dt);
   validate(dt <= motion.duration(), "{}: a time step of {} s is longer than the motion ({:.4g} s)",
@@ -64,6 +64,7 @@ GroundMotion resampled(const GroundMotion& motion, double dt, ResampleMethod met
   const auto n = static_cast<std::size_t>(motion.duration() / dt * (1.0 + 1e-12)) + 1;
   GroundMotion out{.dt = dt, .acceleration = std::vector<double>(n), .origin = motion.origin};
   for (std::size_t i = 0; i < n; ++i) {
+    progress.poll();
     const double place = static_cast<double>(i) * ratio;
     out.acceleration[i] = method == ResampleMethod::linear
                               ? linear_at(motion.acceleration, place)

@@ -163,12 +163,16 @@ double root_near(F&& f, double x, double tolerance) {
 
 }  // namespace
 
-GroundMotion synthesize(const SyntheticConfig& config) {
+GroundMotion synthesize(const SyntheticConfig& config, const Progress& progress) {
   constexpr double kTolerance = 2e-3;
   constexpr int kRounds = 20;
   check_settings(config);
   // Three quarters of it, 2.6 durations, hold all but 1 % of the energy of any envelope.
   const double length = config.lead + 3.5 * config.d5_95;
+  validate(length / config.dt <= kMostSamples,
+           "synthetic motion: {:.4g} s at a step of {} s are {:.3g} samples (at most {:g}) raise "
+           "dt or shorten lead",
+           length, config.dt, length / config.dt, kMostSamples);
   const std::size_t n = transform_size(static_cast<std::size_t>(length / config.dt));
   std::vector<double> noise(n);
   Random random(config.seed);
@@ -177,10 +181,12 @@ GroundMotion synthesize(const SyntheticConfig& config) {
   // Period follows the ground filter and duration the envelope, with little influence crosswise.
   Shape shape{.f_g = 0.7 / config.tm, .t_p = 0.55 * config.d5_95};
   const auto period_error = [&](double ground_period) {
+    progress.poll();
     const Shape trial{.f_g = 1.0 / ground_period, .t_p = shape.t_p};
     return log(mean_period(shaped(config, noise, trial)) / config.tm);
   };
   const auto duration_error = [&](double t_p) {
+    progress.poll();
     const Shape trial{.f_g = shape.f_g, .t_p = t_p};
     return log(significant_duration(shaped(config, noise, trial)) / config.d5_95);
   };

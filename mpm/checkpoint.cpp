@@ -7,7 +7,7 @@ namespace flowslide::mpm {
 namespace {
 
 // Changes whenever the list of fields below changes.
-constexpr std::uint64_t kFields = 0x666c6f77636b7033;
+constexpr std::uint64_t kFields = 0x666c6f77636b7034;
 
 /// One list of fields for both directions: `Archive` writes or reads each.
 template <class Archive, class Sim, class Run>
@@ -24,6 +24,8 @@ void transfer_fields(Archive& a, Sim& s, Run& r) {
   a.value(r.momentum_start);
   a.value(r.first_dt);
   a.value(r.updates);
+  a.value(r.short_steps);
+  a.value(r.energy);
   a.array(r.recent);
   a.value(s.time);
   a.value(s.dt);

@@ -1,4 +1,5 @@
 #pragma once
+#include "mpm/energy_watch.hpp"
 #include "mpm/simulation.hpp"
 
 #include <array>
@@ -18,6 +19,8 @@ struct RunState {
   std::array<double, 3> momentum_start{};
   double first_dt = 0.0;                      ///< [s]
   std::int64_t updates = 0;                   ///< sum over the steps of the points awake in them
+  std::int64_t short_steps = 0;               ///< steps in a row far below the first
+  EnergyWatch energy;
   std::vector<std::array<double, 2>> recent;  ///< (time, front) of the rest window
 };
 

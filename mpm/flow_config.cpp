@@ -2,7 +2,22 @@
 
 namespace flowslide {
 
+namespace {
+
+/// Rows of the time series and stored states that a run may ask for.
+constexpr double kMostSamples = 1e6, kMostFrames = 1e5;
+
+}  // namespace
+
 void check(const FlowConfig& c) {
+  validate(c.end / c.sample_interval <= kMostSamples,
+           "sample_interval = {:g} s asks for {:.2g} rows until {:g} s (at most {:g} are kept) "
+           "raise sample_interval or lower end",
+           c.sample_interval, c.end / c.sample_interval, c.end, kMostSamples);
+  validate(c.end / c.frame_interval <= kMostFrames,
+           "frame_interval = {:g} s asks for {:.2g} stored states until {:g} s (at most {:g} are "
+           "kept) raise frame_interval or lower end",
+           c.frame_interval, c.end / c.frame_interval, c.end, kMostFrames);
   validate(!c.ground.surface.empty(),
            "ground.surface is empty (soil would fall for ever) give at least one point");
   for (std::size_t i = 1; i < c.ground.surface.size(); ++i) {

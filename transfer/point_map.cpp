@@ -111,7 +111,7 @@ bool fit_linear(std::span<const MlsSource> sources, const std::vector<std::int32
 }  // namespace
 
 PointMap build_mls(std::span<const MlsSource> sources, std::span<const MlsTarget> targets,
-                   double radius) {
+                   double radius, const Progress& progress) {
   PointMap map;
   if (targets.empty()) return map;
   double mean_size = 0.0;
@@ -120,6 +120,7 @@ PointMap build_mls(std::span<const MlsSource> sources, std::span<const MlsTarget
   std::vector<std::int32_t> candidates;
   Fit fit;
   for (const MlsTarget& t : targets) {
+    progress.poll();
     double reach = radius * sources[static_cast<std::size_t>(t.home)].size;
     bool stable = false;
     for (int growth = 0; growth <= kMaxGrowths && !stable; ++growth, reach *= kGrowth) {

@@ -47,10 +47,10 @@ struct MapStage {
     compare_densities(config, of_zone, "transfer.zone", found);
     return p;
   }
-  static StageResult run(const RunContext&, const Config& config, const Inputs& in,
+  static StageResult run(const RunContext& context, const Config& config, const Inputs& in,
                          const Outputs& out) {
     const MapResult result =
-        map_state(FemHistory(in.history.path), read_zone(in.zone.path), config);
+        map_state(FemHistory(in.history.path), read_zone(in.zone.path), config, context.progress);
     write_particles(out.particles.path, result.particles);
     write_audit(out.audit.path, result.audit);
     const nlohmann::ordered_json facts = {{"particles", result.particles.size()},

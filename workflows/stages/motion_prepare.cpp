@@ -26,15 +26,15 @@ struct MotionPrepareStage {
   static void check(const Config& config) { flowslide::check(config); }
   /// Reading a record takes less than a second; making a motion takes longer and opens no file.
   static std::any preview(const Config& config, const Previews&, Findings& found) {
-    if (config.record) (void)prepare_motion(config, &found.warnings);
+    if (config.record) (void)prepare_motion(config, {}, &found.warnings);
     return Preview{};
   }
-  static StageResult run(const RunContext&, const Config& config, const Inputs&,
+  static StageResult run(const RunContext& context, const Config& config, const Inputs&,
                          const Outputs& out) {
     std::vector<std::string> warnings;
-    const GroundMotion motion = prepare_motion(config, &warnings);
+    const GroundMotion motion = prepare_motion(config, context.progress, &warnings);
     write_motion_file(out.motion.path, motion);
-    const MotionMeasures m = measure(motion);
+    const MotionMeasures m = measure(motion, context.progress);
     const nlohmann::ordered_json facts = {{"motion_pga_m_s2", m.pga},
                                           {"motion_pgv_m_s", m.pgv},
                                           {"motion_arias_m_s", m.arias},
