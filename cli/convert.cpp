@@ -15,7 +15,7 @@
 #include "motion/record.hpp"
 #include "motion/write_motion.hpp"
 #include "section/boundary.hpp"
-#include "transfer/cbgeo_csv.hpp"
+#include "exporters/cbgeo_csv.hpp"
 
 #include <array>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "mpm/extrude.hpp"
+#include "mpm/run/extrude.hpp"
 #include "tests/bits/digest.hpp"
 #include "tests/bits/scenes.hpp"
 #include "tests/mpm/scene.hpp"

@@ -3,7 +3,7 @@
 #include "fem/build_model.hpp"
 #include "fem/gravity.hpp"
 #include "fem/time_step.hpp"
-#include "fem/verify/scene.hpp"
+#include "verify/fem/scene.hpp"
 #include "model/history.hpp"
 #include "tests/support/scratch.hpp"
 
@@ -277,7 +277,7 @@ TEST_CASE("A checkpoint whose numbers cannot be those of the shaking is refused"
   fits_not([](auto& s) { s.state.displacement.pop_back(); });
   fits_not([](auto& s) { s.state.pressure.clear(); });
   fits_not([](auto& s) { s.state.stress.emplace_back(); });
-  fits_not([](auto& s) { s.state.pm4sand.pop_back(); });
+  fits_not([](auto& s) { std::get<fem::LawStates<PM4Sand>>(s.state.laws).of.pop_back(); });
   fits_not([](auto& s) { s.entry_force.resize(s.entry_force.size() + 8); });
   const auto order = [&](auto change) {
     CHECK_THAT(forged(change), Contains("times, steps"));

@@ -1,4 +1,4 @@
-#include "fem/verify/scene.hpp"
+#include "verify/fem/scene.hpp"
 #include "tests/constitutive/sample_laws.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "mpm/height_field.hpp"
+#include "mpm/walls/height_field.hpp"
 #include "tests/fuzz/input.hpp"
 #include "tests/fuzz/targets.hpp"
 

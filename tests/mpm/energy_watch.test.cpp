@@ -1,4 +1,4 @@
-#include "mpm/energy_watch.hpp"
+#include "mpm/solver/energy_watch.hpp"
 #include "tests/mpm/scene.hpp"
 #include "tests/support/scratch.hpp"
 

@@ -1,4 +1,4 @@
-#include "mpm/verify/extremes.hpp"
+#include "verify/mpm/extremes.hpp"
 
 #include <chrono>
 #include <cstdio>

@@ -1,6 +1,6 @@
 #include "core/check.hpp"
 #include "core/hash.hpp"
-#include "mpm/checkpoint.hpp"
+#include "mpm/solver/checkpoint.hpp"
 #include "tests/mpm/scene.hpp"
 #include "tests/support/limited_files.hpp"
 

@@ -1,5 +1,5 @@
 #include "fem/implicit.hpp"
-#include "fem/verify/scene.hpp"
+#include "verify/fem/scene.hpp"
 
 #include <catch2/catch.hpp>
 #include <omp.h>

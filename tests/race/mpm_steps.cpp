@@ -1,4 +1,4 @@
-#include "mpm/flow.hpp"
+#include "mpm/run/flow.hpp"
 #include "tests/mpm/solid.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "transfer/map_state.hpp"
+#include "transfer/map/map_state.hpp"
 
 #include "config/yaml.hpp"
 #include "core/conventions.hpp"

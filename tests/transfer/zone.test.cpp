@@ -1,4 +1,4 @@
-#include "transfer/zone.hpp"
+#include "transfer/zone/zone.hpp"
 
 #include "core/check.hpp"
 #include "tests/transfer/zone_grid.hpp"

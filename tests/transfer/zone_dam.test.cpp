@@ -1,6 +1,6 @@
 #include "core/check.hpp"
 #include "importers/opensees.hpp"
-#include "transfer/zone.hpp"
+#include "transfer/zone/zone.hpp"
 #include "tests/support/paths.hpp"
 
 #include <algorithm>

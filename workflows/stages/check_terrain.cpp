@@ -1,5 +1,5 @@
 #include "core/check.hpp"
-#include "mpm/height_field.hpp"
+#include "mpm/walls/height_field.hpp"
 #include "workflows/stages/cross_checks.hpp"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "fem/run.hpp"
 #include "model/history.hpp"
 #include "model/motion_file.hpp"
-#include "transfer/zone_record.hpp"
+#include "transfer/zone/zone_record.hpp"
 #include "workflows/stages/cross_checks.hpp"
 #include "workflows/stages/preview.hpp"
 #include "workflows/stages/stage_list.hpp"

@@ -1,4 +1,4 @@
-#include "mpm/flow.hpp"
+#include "mpm/run/flow.hpp"
 
 #include "workflows/stages/cross_checks.hpp"
 #include "workflows/stages/preview.hpp"

@@ -1,4 +1,4 @@
-#include "transfer/map_state.hpp"
+#include "transfer/map/map_state.hpp"
 #include "workflows/stages/cross_checks.hpp"
 #include "workflows/stages/preview.hpp"
 #include "workflows/stages/stage_list.hpp"

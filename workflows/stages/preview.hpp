@@ -1,10 +1,10 @@
 #pragma once
 #include "fem/config.hpp"
 #include "model/section_mesh.hpp"
-#include "mpm/flow_config.hpp"
-#include "transfer/map_config.hpp"
-#include "transfer/stop_config.hpp"
-#include "transfer/zone_config.hpp"
+#include "mpm/run/flow_config.hpp"
+#include "transfer/map/map_config.hpp"
+#include "transfer/zone/stop_config.hpp"
+#include "transfer/zone/zone_config.hpp"
 #include "workflows/engine/stage.hpp"
 
 #include <map>

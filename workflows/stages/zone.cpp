@@ -1,6 +1,6 @@
-#include "transfer/zone.hpp"
+#include "transfer/zone/zone.hpp"
 
-#include "transfer/zone_record.hpp"
+#include "transfer/zone/zone_record.hpp"
 #include "workflows/stages/cross_checks.hpp"
 #include "workflows/stages/preview.hpp"
 #include "workflows/stages/stage_list.hpp"
