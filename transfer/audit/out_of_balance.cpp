@@ -1,5 +1,6 @@
 #include "transfer/audit/out_of_balance.hpp"
 
+#include "core/check.hpp"
 #include "core/conventions.hpp"
 #include "core/elementary.hpp"
 
