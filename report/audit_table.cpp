@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -13,21 +12,6 @@ namespace flowslide {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr std::size_t kDeepest = 32;
-
-/// Tables are made by recursion, which an audit from elsewhere must not drive too deep.
-bool is_deep(const Json& json) {
-  std::vector<std::pair<const Json*, std::size_t>> left{{&json, 1}};
-  while (!left.empty()) {
-    const auto [value, depth] = left.back();
-    left.pop_back();
-    if (!value->is_structured()) continue;
-    if (depth > kDeepest) return true;
-    for (const Json& item : *value) left.emplace_back(&item, depth + 1);
-  }
-  return false;
-}
 
 std::string value_text(const Json& value) {
   if (value.is_number_float()) return fmt::format("{:.4g}", value.get<double>());
@@ -86,6 +70,21 @@ void collect(const std::string& prefix, const Json& object, std::string& rows,
     else
       rows += fmt::format("| {} | {} |\n", name, value_text(value));
   }
+}
+
+constexpr std::size_t kDeepest = 32;
+
+/// Tables are made by recursion, which an audit from elsewhere must not drive too deep.
+bool is_deep(const Json& json) {
+  std::vector<std::pair<const Json*, std::size_t>> left{{&json, 1}};
+  while (!left.empty()) {
+    const auto [value, depth] = left.back();
+    left.pop_back();
+    if (!value->is_structured()) continue;
+    if (depth > kDeepest) return true;
+    for (const Json& item : *value) left.emplace_back(&item, depth + 1);
+  }
+  return false;
 }
 
 }  // namespace
