@@ -79,6 +79,7 @@ void runout(Parts parts) {
     read_checkpoint(path, s, run);
     mpm::StepScratch<Dim> scratch(1);
     prepare(s, scratch, false);
+    check_walls(path, s);
     advance(s, scratch);
   });
 }
