@@ -24,7 +24,7 @@ endforeach()
 set(rules
     "^yaml-cpp/" "^config/yaml[a-z_]*[.]cpp$" "config/yaml*.cpp"
     "^(hdf5|H5[A-Za-z]*)[.]h$" "^model/" "model/"
-    "^vtk" "^model/vtk_writer[.]cpp$" "model/vtk_writer.cpp"
+    "^vtk" "^model/vtk_library[.]cpp$" "model/vtk_library.cpp"
     "^CLI/" "^cli/" "cli/"
     "^nlohmann/" "[.]cpp$" ".cpp files"
     "^openssl/" "^core/" "core/"
