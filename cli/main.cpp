@@ -36,6 +36,7 @@ int run(int argc, char** argv) {
   flowslide::cli::add_bench(app, action);
   flowslide::cli::add_schema(app, action);
   flowslide::cli::add_docs(app, action);
+  flowslide::cli::add_completion(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
