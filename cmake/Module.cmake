@@ -6,7 +6,7 @@ function(add_module name)
   add_library(flowslide_${name} STATIC ${M_SOURCES})
   add_library(flowslide::${name} ALIAS flowslide_${name})
   target_link_libraries(flowslide_${name} PUBLIC flowslide_options ${M_LINKS}
-                        PRIVATE flowslide_warnings ${M_PRIVATE_LINKS})
+                        PRIVATE $<BUILD_INTERFACE:flowslide_warnings> ${M_PRIVATE_LINKS})
 endfunction()
 
 # add_module_tests(name SOURCES a.test.cpp ... [LINKS ...])
