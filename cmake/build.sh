@@ -1,17 +1,26 @@
 #!/usr/bin/env bash
-# cmake/build.sh TARGET: installs missing Debian packages, then configures and builds the preset
-# release. Says beforehand what it installs; everything it prints goes to the standard error.
+# cmake/build.sh [--preset NAME] TARGET...: installs missing Debian packages, then configures and
+# builds a preset, release unless named. Says beforehand what it installs; everything that it prints
+# goes to the standard error.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 exec 1>&2
+preset=release
+if [ "$1" = --preset ]; then
+  preset=$2
+  shift 2
+fi
 
 # python3-munkres stands in for SciPy, which apt would take as the first alternative of Matplotlib's
-# fonttools: 350 MB less (docs/adr/0012-packages.md). VTK is used where it is found, never installed.
+# fonttools: 350 MB less (docs/adr/0013-packages.md). VTK is used where it is found, never installed.
 packages=(
   g++ cmake ninja-build ccache git ca-certificates
   libeigen3-dev libfmt-dev libssl-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev zlib1g-dev
   libhdf5-dev catch2 python3 python3-numpy python3-munkres python3-matplotlib
 )
+case $preset in
+  race | fuzz) packages+=(clang llvm libclang-rt-dev libomp-dev) ;;
+esac
 install=(apt-get install -y --no-install-recommends)
 
 log=$(mktemp)
@@ -128,6 +137,7 @@ else
   echo "note: no apt-get here; what Debian 12 calls ${packages[*]} must be installed already"
 fi
 
-[ -f build/release/CMakeCache.txt ] && [ -f build/release/build.ninja ] || quietly cmake --preset release
+{ [ -f "build/$preset/CMakeCache.txt" ] && [ -f "build/$preset/build.ninja" ]; } ||
+  quietly cmake --preset "$preset"
 export NINJA_STATUS='[%f/%t] '
-with_progress "compiling" of_ninja cmake --build --preset release --target "$1"
+with_progress "compiling" of_ninja cmake --build --preset "$preset" --target "$@"

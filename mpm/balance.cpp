@@ -57,6 +57,67 @@ PointSums<Dim> sum_points(const Simulation<Dim>& s, const Points<Dim>& p) {
   return r;
 }
 
+namespace {
+
+/// Front and runout by the fifth-farthest point.
+template <int Dim>
+void measure_front(const Simulation<Dim>& s, double toe, const std::vector<bool>& counts,
+                   std::vector<double>& scratch, MpmSample& r) {
+  scratch.clear();
+  for (const Points<Dim>* p : {&s.points, &s.gone})
+    for (std::size_t q = 0; q < p->size(); ++q)
+      if (counts[p->material[q]]) scratch.push_back(p->x[0][q]);
+  const auto rank = std::min<std::ptrdiff_t>(kFrontRank, std::ssize(scratch)) - 1;
+  if (rank >= 0) {
+    std::nth_element(scratch.begin(), scratch.begin() + rank, scratch.end(), std::greater<>());
+    r.front = scratch[rank];
+    r.runout = std::max(0.0, r.front - toe);
+  }
+}
+
+/// Where the energy has gone; docs/theory/mpm.md, section Balances.
+template <int Dim>
+void balance_energy(const Balance<Dim>& b, const PointSums<Dim>& start, const PointSums<Dim>& now,
+                    const PointSums<Dim>& left, MpmSample& r) {
+  const double stress_power = 0.5 * (b.power_start + b.power_end);
+  const double kinetic_gain = now.kinetic + left.kinetic - start.kinetic;
+  r.kinetic = now.kinetic;
+  r.gravity_work = start.potential - now.potential - left.potential;
+  r.strain_energy = now.recoverable + left.recoverable - start.recoverable;
+  r.plastic_work = stress_power - r.strain_energy;
+  r.friction_work = -b.grid.boundary;
+  // Dissipation of the velocity transfer: what the grid gained and the points did not keep, at
+  // time-centred velocities.
+  const double grid_gain = 0.5 * (b.grid.internal_start + b.grid.internal_end) + b.grid.gravity +
+                           b.grid.load + b.grid.damping + b.grid.boundary;
+  const double transfer_loss =
+      grid_gain - kinetic_gain - 0.5 * (b.grid.internal_start + b.power_end);
+  r.damping_work = transfer_loss - b.grid.damping;
+  r.load_work = b.grid.load;
+  const double residual = r.gravity_work + r.load_work - kinetic_gain - r.strain_energy -
+                          r.plastic_work - r.friction_work - r.damping_work;
+  const double scale = std::max(
+      {std::abs(r.gravity_work), std::abs(r.load_work), std::abs(stress_power), now.kinetic});
+  r.energy_error = scale > 0.0 ? residual / scale : 0.0;
+}
+
+template <int Dim>
+double momentum_error(const Balance<Dim>& b, const PointSums<Dim>& start,
+                      const PointSums<Dim>& now, const PointSums<Dim>& left) {
+  double impulse = 0.0, momentum_residual = 0.0;
+  for (int d = 0; d < Dim; ++d) {
+    const double expected = start.momentum[d] + b.grid.gravity_impulse[d] + b.grid.load_impulse[d] +
+                            b.grid.boundary_impulse[d];
+    momentum_residual =
+        std::max(momentum_residual, std::abs(now.momentum[d] + left.momentum[d] - expected));
+    impulse =
+        std::max({impulse, std::abs(b.grid.gravity_impulse[d]), std::abs(b.grid.load_impulse[d])});
+  }
+  return impulse > 0.0 ? momentum_residual / impulse : 0.0;
+}
+
+}  // namespace
+
 template <int Dim>
 MpmSample sample(const Simulation<Dim>& s, const Reference<Dim>& reference,
                  const std::vector<bool>& counts, std::vector<double>& scratch) {
@@ -71,49 +132,9 @@ MpmSample sample(const Simulation<Dim>& s, const Reference<Dim>& reference,
   }
   MpmSample r;
   r.time = s.time;
-  scratch.clear();
-  for (const Points<Dim>* p : {&s.points, &s.gone})
-    for (std::size_t q = 0; q < p->size(); ++q)
-      if (counts[p->material[q]]) scratch.push_back(p->x[0][q]);
-  const auto rank = std::min<std::ptrdiff_t>(kFrontRank, std::ssize(scratch)) - 1;
-  if (rank >= 0) {
-    std::nth_element(scratch.begin(), scratch.begin() + rank, scratch.end(), std::greater<>());
-    r.front = scratch[rank];
-    r.runout = std::max(0.0, r.front - reference.toe);
-  }
-
-  const Balance<Dim>& b = s.balance;
-  const double stress_power = 0.5 * (b.power_start + b.power_end);
-  const double kinetic_gain = now.kinetic + left.kinetic - start.kinetic;
-  r.kinetic = now.kinetic;
-  r.gravity_work = start.potential - now.potential - left.potential;
-  r.strain_energy = now.recoverable + left.recoverable - start.recoverable;
-  r.plastic_work = stress_power - r.strain_energy;
-  r.friction_work = -b.grid.boundary;
-  // Dissipation of the velocity transfer: what the grid gained and the points did not keep, at
-  // time-centred velocities (docs/theory/mpm.md, section Balances).
-  const double grid_gain = 0.5 * (b.grid.internal_start + b.grid.internal_end) + b.grid.gravity +
-                           b.grid.load + b.grid.damping + b.grid.boundary;
-  const double transfer_loss =
-      grid_gain - kinetic_gain - 0.5 * (b.grid.internal_start + b.power_end);
-  r.damping_work = transfer_loss - b.grid.damping;
-  r.load_work = b.grid.load;
-  const double residual = r.gravity_work + r.load_work - kinetic_gain - r.strain_energy -
-                          r.plastic_work - r.friction_work - r.damping_work;
-  const double scale = std::max(
-      {std::abs(r.gravity_work), std::abs(r.load_work), std::abs(stress_power), now.kinetic});
-  r.energy_error = scale > 0.0 ? residual / scale : 0.0;
-
-  double impulse = 0.0, momentum_residual = 0.0;
-  for (int d = 0; d < Dim; ++d) {
-    const double expected = start.momentum[d] + b.grid.gravity_impulse[d] + b.grid.load_impulse[d] +
-                            b.grid.boundary_impulse[d];
-    momentum_residual =
-        std::max(momentum_residual, std::abs(now.momentum[d] + left.momentum[d] - expected));
-    impulse =
-        std::max({impulse, std::abs(b.grid.gravity_impulse[d]), std::abs(b.grid.load_impulse[d])});
-  }
-  r.momentum_error = impulse > 0.0 ? momentum_residual / impulse : 0.0;
+  measure_front(s, reference.toe, counts, scratch, r);
+  balance_energy(s.balance, start, now, left, r);
+  r.momentum_error = momentum_error(s.balance, start, now, left);
   r.mass_error = std::abs(now.mass + left.mass - start.mass) / start.mass;
   r.max_speed = std::sqrt(s.last.max_speed2);
   r.dt = s.dt;

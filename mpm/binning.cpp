@@ -1,6 +1,7 @@
 #include "mpm/binning.hpp"
 
 #include "core/check.hpp"
+#include "core/memory.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -64,6 +65,13 @@ void link_tiles(Grid<Dim>& grid, Tiling<Dim>& tiling) {
   std::sort(keys.begin(), keys.end());
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
 
+  // Nodes, and about as much for the windows of the tiles.
+  const double bytes = 2.0 * sizeof(Node) * kBlockNodes<Dim> * double(keys.size());
+  if (keys.size() * kBlockNodes<Dim> > grid.nodes.capacity() && bytes > 1e8)
+    need_memory(bytes,
+                fmt::format("a grid of {} blocks of {} cells of {:.3g} m", keys.size(),
+                            kBlockNodes<Dim>, grid.h),
+                "use a larger cell, or an outlet for points that fly away");
   grid.blocks.clear();
   for (const std::int64_t key : keys) grid.blocks.push_back(unpack<Dim>(key));
   grid.nodes.resize(keys.size() * kBlockNodes<Dim>);

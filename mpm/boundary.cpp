@@ -1,5 +1,7 @@
 #include "mpm/boundary.hpp"
 
+#include "core/elementary.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +19,7 @@ Nearest Ground::nearest(double at, double elevation) const {
   double best = std::numeric_limits<double>::infinity();
   std::array<double, 2> normal{0.0, 1.0};
   const auto offer = [&](double dx, double dy, const std::array<double, 2>& n) {
-    const double distance = std::hypot(dx, dy);
+    const double distance = hypot(dx, dy);
     // At a corner two pieces are equally near: the one that faces the point more squarely counts.
     const bool squarer =
         std::abs(dx * n[0] + dy * n[1]) > std::abs(dx * normal[0] + dy * normal[1]);
@@ -30,7 +32,7 @@ Nearest Ground::nearest(double at, double elevation) const {
   offer(std::min(at - x.back(), 0.0), elevation - height.back(), {0.0, 1.0});
   for (std::size_t i = 0; i + 1 < x.size(); ++i) {
     const double dx = x[i + 1] - x[i], dy = height[i + 1] - height[i];
-    const double length = std::hypot(dx, dy);
+    const double length = hypot(dx, dy);
     if (!(length > 0.0)) continue;
     const double along = ((at - x[i]) * dx + (elevation - height[i]) * dy) / (length * length);
     const double t = std::clamp(along, 0.0, 1.0);

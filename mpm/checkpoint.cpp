@@ -1,12 +1,13 @@
 #include "mpm/checkpoint.hpp"
 
 #include "model/checkpoint_file.hpp"
+#include "mpm/checkpoint_check.hpp"
 
 namespace flowslide::mpm {
 namespace {
 
 // Changes whenever the list of fields below changes.
-constexpr std::uint64_t kFields = 0x666c6f77636b7033;
+constexpr std::uint64_t kFields = 0x666c6f77636b7034;
 
 /// One list of fields for both directions: `Archive` writes or reads each.
 template <class Archive, class Sim, class Run>
@@ -23,6 +24,8 @@ void transfer_fields(Archive& a, Sim& s, Run& r) {
   a.value(r.momentum_start);
   a.value(r.first_dt);
   a.value(r.updates);
+  a.value(r.short_steps);
+  a.value(r.energy);
   a.array(r.recent);
   a.value(s.time);
   a.value(s.dt);
@@ -62,13 +65,21 @@ void read_checkpoint(const std::filesystem::path& path, Simulation<Dim>& s, RunS
   CheckpointReader in(path, kFields);
   transfer_fields(in, s, run);
   in.finish();
-  if (s.points.size() + s.gone.size() != points) in.refuse("it has another number of points");
+  if (const std::string misfit = find_misfit(s, run, points); !misfit.empty()) in.refuse(misfit);
+}
+
+template <int Dim>
+void check_walls(const std::filesystem::path& path, const Simulation<Dim>& s) {
+  if (s.contact.impulse.size() != s.contact.walls.size())
+    refuse_checkpoint(path, "it has impulses of other walls than this run");
 }
 
 template void write_checkpoint<2>(const std::filesystem::path&, const Simulation<2>&,
                                   const RunState&);
 template void write_checkpoint<3>(const std::filesystem::path&, const Simulation<3>&,
                                   const RunState&);
+template void check_walls<2>(const std::filesystem::path&, const Simulation<2>&);
+template void check_walls<3>(const std::filesystem::path&, const Simulation<3>&);
 template void read_checkpoint<2>(const std::filesystem::path&, Simulation<2>&, RunState&);
 template void read_checkpoint<3>(const std::filesystem::path&, Simulation<3>&, RunState&);
 

@@ -1,4 +1,5 @@
 #pragma once
+#include "mpm/energy_watch.hpp"
 #include "mpm/simulation.hpp"
 
 #include <array>
@@ -18,6 +19,8 @@ struct RunState {
   std::array<double, 3> momentum_start{};
   double first_dt = 0.0;                      ///< [s]
   std::int64_t updates = 0;                   ///< sum over the steps of the points awake in them
+  std::int64_t short_steps = 0;               ///< steps in a row far below the first
+  EnergyWatch energy;
   std::vector<std::array<double, 2>> recent;  ///< (time, front) of the rest window
 };
 
@@ -27,8 +30,12 @@ void write_checkpoint(const std::filesystem::path& path, const Simulation<Dim>& 
                       const RunState& run);
 
 /// Fills what a run changes; settings, materials and boundaries stay as they are. Throws FileError
-/// if the file is damaged or belongs to another number of points.
+/// if the file is damaged or holds what this run cannot have.
 template <int Dim>
 void read_checkpoint(const std::filesystem::path& path, Simulation<Dim>& s, RunState& run);
+
+/// The rest of that check, which needs the walls that prepare() places. Throws FileError.
+template <int Dim>
+void check_walls(const std::filesystem::path& path, const Simulation<Dim>& s);
 
 }  // namespace flowslide::mpm

@@ -81,27 +81,22 @@ double push(Contact<Dim>& c, std::int32_t p, Hold hold,
   return size;
 }
 
-}  // namespace
-
-/// Impulses of all wall points that soil touches. A point that shares no node with another has its
-/// answer at once; the others are swept until the corrections are small, from the impulses as they
-/// are.
+/// Mass and velocity of the nodes in reach of walls; `first` is the place of what is solved for.
 template <int Dim>
-void solve(const StaggeredArray<Node>& nodes, Contact<Dim>& c, double full_mass, Hold hold,
-           std::vector<typename Contact<Dim>::Vector>& impulse, Ends ends, double dt) noexcept {
+void take_nodes(const StaggeredArray<Node>& nodes, Contact<Dim>& c, double floor, int first) {
   using L = NodeLayout<Dim>;
-  const int first = ends == Ends::stop ? L::force : L::momentum;  // changes, or velocities
-  const auto turn = [&](std::int32_t p) {
-    return c.walls[p].dashpot < 0 ? push(c, p, hold, impulse[p])
-                                  : drain(c, p, ends, dt, impulse[p]);
-  };
-  const double floor = kMassFloor * full_mass;
   for (std::size_t k = 0; k < c.nodes.size(); ++k) {
     const auto& q = nodes[c.nodes[k]].q;
     c.inverse_mass[k] = q[L::mass] > floor ? 1.0 / q[L::mass] : 0.0;
     c.uses[k] = 0;
     for (int d = 0; d < Dim; ++d) c.velocity[k][d] = q[first + d];
   }
+}
+
+/// Wall points that soil touches and that act; the impulse of others is zero.
+template <int Dim>
+void find_active(Contact<Dim>& c, Hold hold, Ends ends,
+                 std::vector<typename Contact<Dim>::Vector>& impulse) {
   c.active.clear();
   for (std::size_t p = 0; p < c.walls.size(); ++p) {
     const WallPoint<Dim>& wall = c.walls[p];
@@ -122,6 +117,24 @@ void solve(const StaggeredArray<Node>& nodes, Contact<Dim>& c, double full_mass,
       impulse[p] = {};
     }
   }
+}
+
+}  // namespace
+
+/// Impulses of all wall points that soil touches. A point that shares no node with another has its
+/// answer at once; the others are swept until the corrections are small, from the impulses as they
+/// are.
+template <int Dim>
+void solve(const StaggeredArray<Node>& nodes, Contact<Dim>& c, double full_mass, Hold hold,
+           std::vector<typename Contact<Dim>::Vector>& impulse, Ends ends, double dt) noexcept {
+  using L = NodeLayout<Dim>;
+  const auto turn = [&](std::int32_t p) {
+    return c.walls[p].dashpot < 0 ? push(c, p, hold, impulse[p])
+                                  : drain(c, p, ends, dt, impulse[p]);
+  };
+  // changes, or velocities
+  take_nodes(nodes, c, kMassFloor * full_mass, ends == Ends::stop ? L::force : L::momentum);
+  find_active(c, hold, ends, impulse);
   c.coupled.clear();
   for (const std::int32_t p : c.active) {
     const WallPoint<Dim>& wall = c.walls[p];

@@ -16,8 +16,15 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kReportSeconds = 0.2;  ///< wall time between progress reports
-/// A step that shrank this much means that the state has gone wrong, not that the flow is fast.
-constexpr double kDtCollapse = 1e-5;
+/// A step that shrank this much means that the state has gone wrong, not that the flow is fast; so
+/// do many steps in a row that shrank by less.
+constexpr double kDtCollapse = 1e-5, kDtShort = 1e-2;
+constexpr std::int64_t kMostShort = 20'000;
+constexpr double kEnergyNoise = 0.01;  ///< cells that the soil may sink before energy is watched
+/// Steps, and bytes of stored states, above which a run is not begun.
+constexpr double kMostSteps = 1e8, kMostBytes = 1e12;
+constexpr double kFrameBytesPerPoint = 15 * sizeof(double);
+constexpr double kUpdatesPerSecond = 5e6;  ///< of a thread, for predictions of cost
 
 double seconds_since(Clock::time_point t) {
   return std::chrono::duration<double>(Clock::now() - t).count();
@@ -44,16 +51,47 @@ bool at_rest(const mpm::RunState& run, const MpmSample& now, const RestSettings&
 }
 
 template <int Dim>
-void check_step(const mpm::Simulation<Dim>& s, double first_dt) {
+void check_step(const mpm::Simulation<Dim>& s, mpm::RunState& run) {
+  const double first = run.first_dt;
   const bool finite =
       std::isfinite(s.last.max_speed2) && std::isfinite(s.last.max_strain) && std::isfinite(s.dt);
-  if (finite && s.dt > kDtCollapse * first_dt) return;
+  run.short_steps = s.dt > kDtShort * first ? 0 : run.short_steps + 1;
+  if (finite && s.dt > kDtCollapse * first && run.short_steps < kMostShort) return;
   throw NumericsError(fmt::format(
       "step {}, t = {:.4f} s: {} (fastest point {:.3g} m/s, step {:.3g} s against {:.3g} s at the "
-      "start; the state has "
-      "become unphysical) check strengths and stiffness of the materials, or try a smaller courant",
+      "start; the state has become unphysical) check strengths and stiffness of the materials, or "
+      "try a smaller courant",
       s.step, s.time, finite ? "the time step has collapsed" : "velocities are no longer finite",
-      std::sqrt(s.last.max_speed2), s.dt, first_dt));
+      std::sqrt(s.last.max_speed2), s.dt, first));
+}
+
+/// Refuses a run that would not end in any useful time, or fill any disk.
+template <int Dim>
+void check_cost(const mpm::Simulation<Dim>& s, const std::vector<MaterialSpec>& materials,
+                const FlowConfig& config, double dt, int threads) {
+  const auto points = static_cast<double>(s.points.size());
+  const double bytes = points * kFrameBytesPerPoint * config.end / config.frame_interval;
+  validate(bytes <= kMostBytes,
+           "frame_interval = {:g} s asks for {:.3g} GB of stored states of {} points until {:g} s "
+           "(at most {:g} GB are written) raise frame_interval or lower end",
+           config.frame_interval, bytes * 1e-9, s.points.size(), config.end, kMostBytes * 1e-9);
+  const double steps = config.end / dt;
+  if (steps <= kMostSteps || std::isinf(steps)) return;  // a step of 0 ends the run at once
+  std::size_t fastest = 0;
+  double wave2 = 0.0;
+  for (std::size_t q = 0; q < s.points.size(); ++q) {
+    const auto m = static_cast<std::size_t>(s.points.material[q]);
+    const double own = mpm::wave_modulus(s.materials[m].elastic, s.averages(s.points.material[q])) *
+                       s.points.volume[q] / s.points.mass[q];
+    if (own > wave2) fastest = m, wave2 = own;
+  }
+  throw InputError(fmt::format(
+      "the run would take {:.2g} steps of {:.2g} s until {:g} s, about {:.2g} days (waves in "
+      "'{}' travel at {:.3g} m/s through cells of {:g} m; at most {:g} steps are begun) check end, "
+      "cell, and stiffness and density of that material, courant, velocity_limit and the speeds at "
+      "the start",
+      steps, dt, config.end, steps * points / (kUpdatesPerSecond * threads) / 86400.0,
+      materials[fastest].name, std::sqrt(wave2), config.cell, kMostSteps));
 }
 
 template <int Dim>
@@ -63,17 +101,22 @@ FlowFacts run_in(const ParticleSet& particles, const FlowConfig& config, const F
   index_by_id(s, particles);
   mpm::StepScratch<Dim> scratch(std::max(1, threads));
   mpm::RunState run;
-  const bool resume = std::filesystem::exists(paths.checkpoint);
+  const bool resume = find_checkpoint(paths.checkpoint);
   if (resume) mpm::read_checkpoint(paths.checkpoint, s, run);
   mpm::prepare(s, scratch, !resume);
+  if (resume) mpm::check_walls(paths.checkpoint, s);
   if (!resume) {
     const mpm::PointSums<Dim> start = mpm::sum_points(s);
     run.mass_start = start.mass;
     run.kinetic_start = start.kinetic;
     run.potential_start = start.potential;
     run.recoverable_start = start.recoverable;
+    // The balance of the first steps is wrong by as much as they do.
+    const double noise = kEnergyNoise * start.mass * config.gravity * config.cell;
+    run.energy.begin(start.kinetic, start.recoverable, noise);
     std::copy(start.momentum.begin(), start.momentum.end(), run.momentum_start.begin());
     run.first_dt = mpm::stable_step(s);
+    check_cost(s, particles.materials, config, run.first_dt, std::max(1, threads));
   }
   mpm::Reference<Dim> reference{
       {run.mass_start, run.kinetic_start, run.potential_start, run.recoverable_start, {}, true, -1},
@@ -81,24 +124,23 @@ FlowFacts run_in(const ParticleSet& particles, const FlowConfig& config, const F
   std::copy_n(run.momentum_start.begin(), Dim, reference.start.momentum.begin());
   std::vector<bool> counts;
   for (const MaterialSpec& m : particles.materials) counts.push_back(m.counts_for_runout);
+  const bool elastic =
+      std::all_of(particles.materials.begin(), particles.materials.end(),
+                  [](const MaterialSpec& m) { return m.law == LinearElastic::name; });
 
-  std::optional<MpmHistoryWriter> history;
-  if (resume)
-    history.emplace(paths.history, run.frames, run.samples);
-  else
-    history.emplace(paths.history, particles);
+  MpmHistoryWriter history(paths.history, particles, run.frames, run.samples);
 
   FlowFacts facts;
   MpmFrame frame;
   std::vector<double> front_scratch;
   const auto store = [&] {
     mpm::store_frame(s, frame);
-    history->append(frame);
+    history.append(frame);
     ++run.frames;
     run.next_frame += config.frame_interval;
   };
   const auto checkpoint = [&] {
-    history->flush();
+    history.flush();
     mpm::write_checkpoint(paths.checkpoint, s, run);
   };
   if (!resume) store();
@@ -109,13 +151,14 @@ FlowFacts run_in(const ParticleSet& particles, const FlowConfig& config, const F
   facts.last.time = s.time;
   for (bool done = false; !done;) {
     mpm::advance(s, scratch);
-    check_step(s, run.first_dt);
+    check_step(s, run);
     run.updates += std::ssize(s.points.mass) - s.sleep.count;
     done = s.time >= config.end || s.points.size() == 0;
     if (s.time >= run.next_sample || done) {
       if (mpm::any_beyond(s.outlet, s.points)) mpm::prepare(s, scratch, true);
       facts.last = mpm::sample(s, reference, counts, front_scratch);
-      history->append(facts.last);
+      run.energy.look(facts.last, elastic);
+      history.append(facts.last);
       ++run.samples;
       while (run.next_sample <= s.time) run.next_sample += config.sample_interval;
       run.peak_kinetic = std::max(run.peak_kinetic, facts.last.kinetic);
@@ -142,8 +185,9 @@ FlowFacts run_in(const ParticleSet& particles, const FlowConfig& config, const F
     }
   }
   facts.step_seconds = seconds_since(start);
-  history->finish();
-  std::filesystem::remove(paths.checkpoint);
+  history.finish();
+  remove_checkpoint(paths.checkpoint);
+  history.remove_parts();
   facts.end_time = s.time;
   facts.steps = s.step;
   facts.point_updates = static_cast<double>(run.updates);

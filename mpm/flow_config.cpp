@@ -2,7 +2,22 @@
 
 namespace flowslide {
 
+namespace {
+
+/// Rows of the time series and stored states that a run may ask for.
+constexpr double kMostSamples = 1e6, kMostFrames = 1e5;
+
+}  // namespace
+
 void check(const FlowConfig& c) {
+  validate(c.end / c.sample_interval <= kMostSamples,
+           "sample_interval = {:g} s asks for {:.2g} rows until {:g} s (at most {:g} are kept) "
+           "raise sample_interval or lower end",
+           c.sample_interval, c.end / c.sample_interval, c.end, kMostSamples);
+  validate(c.end / c.frame_interval <= kMostFrames,
+           "frame_interval = {:g} s asks for {:.2g} stored states until {:g} s (at most {:g} are "
+           "kept) raise frame_interval or lower end",
+           c.frame_interval, c.end / c.frame_interval, c.end, kMostFrames);
   validate(!c.ground.surface.empty(),
            "ground.surface is empty (soil would fall for ever) give at least one point");
   for (std::size_t i = 1; i < c.ground.surface.size(); ++i) {
@@ -22,7 +37,7 @@ void check(const FlowConfig& c) {
     validate(!planes.bottom || point[1] <= *planes.bottom - 2.0 * c.cell,
              "ground.surface reaches up to y = {:g} m (it would hold the soil in place of "
              "absorbing.bottom at {:g} m) lower it by two cells or more below the plane",
-             point[1], *planes.bottom);
+             point[1], planes.bottom.value_or(kUnset));
   validate(!c.outlet.left || !c.outlet.right || *c.outlet.left < *c.outlet.right,
            "outlet.left is not left of outlet.right (nothing lies between them) swap them");
   validate(!c.outlet.bottom || !c.outlet.top || *c.outlet.bottom < *c.outlet.top,

@@ -1,13 +1,15 @@
 #include "mpm/height_field.hpp"
 
 #include "core/check.hpp"
+#include "core/elementary.hpp"
+#include "core/odd_characters.hpp"
+#include "core/unreadable.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <fstream>
 #include <map>
-#include <optional>
 #include <string_view>
 
 namespace flowslide::mpm {
@@ -20,7 +22,7 @@ struct Cell {
 };
 
 Cell find_cell(const HeightField& f, double x, double y) {
-  const double c = std::cos(f.place.heading), s = std::sin(f.place.heading);
+  const double c = cos(f.place.heading), s = sin(f.place.heading);
   const double east = f.place.origin[0] + c * x - s * y;
   const double north = f.place.origin[1] + s * x + c * y;
   const double i = std::clamp((east - f.corner[0]) / f.spacing, 0.0, f.columns - 1.0);
@@ -34,17 +36,22 @@ Cell find_cell(const HeightField& f, double x, double y) {
 class GridFile {
  public:
   explicit GridFile(const std::filesystem::path& path)
-      : name_(path.filename().string()), in_(path) {
-    if (!in_ || std::filesystem::is_directory(path))
-      throw FileError(fmt::format("{}: cannot be opened (no such file, or no right to read it)",
-                                  path.string()));
+      : path_(path), name_(path.filename().string()) {
+    const std::string why = why_unreadable(path);
+    if (why.empty()) in_.open(path);
+    std::error_code error;
+    bytes_ = std::filesystem::file_size(path, error);
+    if (!why.empty() || !in_ || error)
+      throw FileError(fmt::format("{}: {}", path.string(), why.empty() ? "cannot be opened" : why));
   }
   /// Words of the next line that has any; false at the end of the file.
   bool next() {
     words_.clear();
-    while (words_.empty() && std::getline(in_, text_)) {
+    while (words_.empty() && in_.getline(line_text_.data(), std::ssize(line_text_))) {
       ++line_;
-      const std::string_view text = text_;
+      // The end of the line counts, but the last line may have none.
+      std::string_view text(line_text_.data(), in_.gcount() - (in_.eof() ? 0 : 1));
+      if (line_ == 1 && text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
       for (std::size_t at = 0; at < text.size();) {
         const std::size_t first = text.find_first_not_of(" \t\r", at);
         if (first == std::string_view::npos) break;
@@ -52,8 +59,15 @@ class GridFile {
         words_.push_back(text.substr(first, at - first));
       }
     }
+    if (in_.bad()) throw FileError(fmt::format("{}: cannot be read", path_.string()));
+    validate(in_.gcount() + 1 < std::ssize(line_text_),
+             "{}:{}: the line has more than {} MiB (no row of a terrain has so many heights) is "
+             "this a text file?",
+             name_, line_ + 1, kLongestLine >> 20u);
     return !words_.empty();
   }
+  /// Numbers that a file of this size can hold: each takes a digit and a blank.
+  [[nodiscard]] double most_numbers() const { return 0.5 * static_cast<double>(bytes_ + 1); }
   [[nodiscard]] const std::vector<std::string_view>& words() const { return words_; }
   [[nodiscard]] int line() const { return line_; }
   [[nodiscard]] std::string place() const { return fmt::format("{}:{}", name_, line_); }
@@ -61,17 +75,23 @@ class GridFile {
   [[nodiscard]] double number(std::string_view word) const {
     double value = kUnset;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    validate(error == std::errc{} && end == word.data() + word.size() && std::isfinite(value),
-             "{}: '{}' is not a finite number (heights are plain numbers) mark missing ones with "
-             "the nodata_value of the header",
-             place(), word.substr(0, 40));
-    return value;
+    if (error == std::errc{} && end == word.data() + word.size() && std::isfinite(value))
+      return value;
+    const std::string odd = odd_characters(word);
+    throw InputError(fmt::format(
+        "{}: '{}' {}", place(), word.substr(0, 40),
+        odd.empty() ? "is not a finite number (heights are plain numbers) mark missing ones with "
+                      "the nodata_value of the header"
+                    : odd));
   }
 
  private:
+  std::filesystem::path path_;
   std::string name_;
   std::ifstream in_;
-  std::string text_;
+  std::uintmax_t bytes_ = 0;
+  static constexpr std::size_t kLongestLine = std::size_t{4} << 20;  ///< 100000 heights have 2.5
+  std::vector<char> line_text_ = std::vector<char>(kLongestLine);
   std::vector<std::string_view> words_;
   int line_ = 0;
 };
@@ -86,8 +106,13 @@ struct Header {
   int columns = 0, rows = 0;
   double spacing = kUnset;
   std::array<double, 2> corner{kUnset, kUnset};  ///< middle of the lowest cell on the left
-  std::optional<double> no_data;
+  double no_data = kUnset;
 };
+
+/// What the format means where the header has no nodata_value.
+constexpr double kUsualNoData = -9999.0;
+// The shore of the Dead Sea lies at -430 m, no pit is deeper than -1000 m; Everest has 8850 m.
+constexpr double kLowestGround = -1100.0, kHighestGround = 9000.0;
 
 constexpr int kFewest = 2, kMost = 100000;
 
@@ -125,13 +150,17 @@ Header read_header(GridFile& file) {
              file.name(), columns, rows, kFewest, kMost);
   h.columns = static_cast<int>(columns);
   h.rows = static_cast<int>(rows);
+  validate(columns * rows <= file.most_numbers(),
+           "{}: the header says {:g} x {:g} heights (the file is too short for so many) it was "
+           "cut, or the header is wrong; copy or export it again",
+           file.name(), columns, rows);
   h.spacing = need("cellsize");
   validate(h.spacing > 0.0, "{}: cellsize is {:g} (it is a length) check the header", file.name(),
            h.spacing);
   const bool centre_x = value.count("xllcenter") > 0, centre_y = value.count("yllcenter") > 0;
   h.corner = {need("xllcorner", "xllcenter") + (centre_x ? 0.0 : 0.5 * h.spacing),
               need("yllcorner", "yllcenter") + (centre_y ? 0.0 : 0.5 * h.spacing)};
-  if (value.count("nodata_value")) h.no_data = value.at("nodata_value");
+  h.no_data = value.count("nodata_value") ? value.at("nodata_value") : kUsualNoData;
   validate(more, "{}: ends after its header (it has no heights) export the terrain anew",
            file.name());
   return h;
@@ -169,24 +198,38 @@ HeightField read_height_field(const std::filesystem::path& path, const MapPlace&
   f.place = place;
   f.source = file.name();
   f.first_line = file.line();
-  f.height.resize(std::size_t(f.columns) * f.rows);
-  for (int row = f.rows - 1; row >= 0; --row) {
+  // Grows with what the file holds: a header alone must not take the memory of the machine.
+  std::vector<double>& height = f.height;
+  for (int row = 0; row < f.rows; ++row) {
     validate(!file.words().empty(),
              "{}: ends after {} rows of heights (the header says nrows {}) the file was cut; copy "
              "or export it again",
-             file.place(), f.rows - 1 - row, f.rows);
+             file.place(), row, f.rows);
+    if (std::ssize(file.words()) != f.columns)  // a word that is no number says more
+      for (const std::string_view word : file.words()) (void)file.number(word);
     validate(std::ssize(file.words()) == f.columns,
              "{}: {} heights in this line (the header says ncols {}) write every row of the grid "
              "on a line of its own",
              file.place(), file.words().size(), f.columns);
     for (int i = 0; i < f.columns; ++i) {
       const double value = file.number(file.words()[i]);
-      const bool missing = header.no_data && value == *header.no_data;
-      f.height[std::size_t(row) * f.columns + i] = missing ? kUnset : value;
+      const bool missing = value == header.no_data;
+      if (!missing && !(value > kLowestGround && value < kHighestGround))
+        throw InputError(fmt::format(
+            "{}: column {}: a height of {:g} m (no ground lies there; a mark for missing data that "
+            "the header does not tell, or heights in another unit) write 'nodata_value {:g}' into "
+            "the header if it is such a mark",
+            file.place(), i + 1, value, value));
+      height.push_back(missing ? kUnset : value);
       f.complete = f.complete && !missing;
     }
     file.next();
   }
+  // The file begins with the last row.
+  for (int low = 0, high = f.rows - 1; low < high; ++low, --high)
+    std::swap_ranges(height.begin() + std::ptrdiff_t(low) * f.columns,
+                     height.begin() + std::ptrdiff_t(low + 1) * f.columns,
+                     height.begin() + std::ptrdiff_t(high) * f.columns);
   validate(file.words().empty(),
            "{}: more rows of heights than nrows {} (the header and the rows disagree) export the "
            "terrain anew",

@@ -1,3 +1,4 @@
+#include "core/elementary.hpp"
 #include "mpm/contact_solve.hpp"
 
 #include <algorithm>
@@ -75,7 +76,7 @@ double radius(const Grid<Dim>& grid) noexcept {
     }
   }
   double square = 0.0;
-  for (int d = 0; d < Dim; ++d) square += std::pow(high[d] - low[d] + 1, 2);
+  for (int d = 0; d < Dim; ++d) square += pow(high[d] - low[d] + 1, 2);
   return 2.0 * kBlockWidth<Dim> * grid.h * std::sqrt(square);
 }
 
@@ -84,7 +85,7 @@ double radius(const Grid<Dim>& grid) noexcept {
 template <int Dim>
 void settle_dashpots(const Grid<Dim>& grid, Contact<Dim>& c, double dt, double full_mass,
                      GridWork<Dim>& work) noexcept {
-  const double density = full_mass / std::pow(grid.h, Dim), r = radius(grid);
+  const double density = full_mass / pow(grid.h, Dim), r = radius(grid);
   for_each_dashpot(c, [&](const WallPoint<Dim>& wall, const auto& impulse) {
     Dashpot<Dim>& dashpot = c.absorbing.dashpots[wall.dashpot];
     const auto after = surface_velocity(c, wall);

@@ -1,5 +1,7 @@
 #include "mpm/load.hpp"
 
+#include "core/elementary.hpp"
+
 #include <cmath>
 
 namespace flowslide::mpm {
@@ -202,7 +204,7 @@ Simulation<Dim> make_simulation(const ParticleSet& particles, const FlowConfig& 
   } else {
     validate(config.tractions.empty(), "tractions act in plane strain (this run has 3 dimensions)");
   }
-  s.full_mass = density * std::pow(config.cell, Dim);
+  s.full_mass = density * pow(config.cell, Dim);
   return s;
 }
 

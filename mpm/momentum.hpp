@@ -1,6 +1,7 @@
 #pragma once
 #include "mpm/grid.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 /// Momentum balance on the grid: v* = (m v + dt (f + m b)) / m; contact.hpp then holds it at walls.
@@ -39,6 +40,7 @@ struct MomentumSettings {
   double dt;                      ///< [s]
   std::array<double, 3> gravity;  ///< [m/s2]
   double cundall;                 ///< local non-viscous damping factor [-]
+  double light = 0.0;             ///< mass up to which nodes hardly move points [kg]; way.hpp
 };
 
 /// Nodes lighter than this share of a full cell's mass carry no velocity: their quotient is noise,
@@ -60,14 +62,17 @@ double load_on(const std::array<double, 8>& q, int d) noexcept {
 }
 
 /// Velocities of a block's nodes after the step, and their change in place of the force. Without
-/// tractions where not `kLoaded`.
+/// tractions where not `kLoaded`. `gain2` is raised to the largest square of a change, times
+/// (m / light)^2 for light nodes [m2/s2].
 template <int Dim, bool kLoaded>
 GridWork<Dim> update_momentum(Grid<Dim>& grid, std::size_t block, const MomentumSettings& s,
-                              double full_mass) noexcept {
+                              double full_mass, double& gain2) noexcept {
   using L = NodeLayout<Dim>;
   GridWork<Dim> work;
   Node* nodes = grid.nodes.data() + block * kBlockNodes<Dim>;
   const double floor = kMassFloor * full_mass;
+  const double per_light = s.light > 0.0 ? 1.0 / s.light : 0.0;
+  double largest2 = 0.0;
   for (int n = 0; n < kBlockNodes<Dim>; ++n) {
     auto& q = nodes[n].q;
     const double m = q[L::mass];
@@ -76,6 +81,7 @@ GridWork<Dim> update_momentum(Grid<Dim>& grid, std::size_t block, const Momentum
       continue;
     }
     const double inverse = 1.0 / m;
+    double change2 = 0.0;
     for (int d = 0; d < Dim; ++d) {
       const double v = q[L::momentum + d] * inverse;
       const double f = q[L::force + d];
@@ -96,9 +102,15 @@ GridWork<Dim> update_momentum(Grid<Dim>& grid, std::size_t block, const Momentum
       work.gravity_impulse[d] += weight * s.dt;
       work.boundary_impulse[d] += (f + drag) * s.dt;
       q[L::momentum + d] = v_new;
-      q[L::force + d] = v_new - v;
+      const double change = v_new - v;
+      q[L::force + d] = change;
+      change2 += change * change;
     }
+    const double share = std::min(1.0, m * per_light);
+    // Written so that a change that is not a number counts.
+    if (!(share * share * change2 <= largest2)) largest2 = share * share * change2;
   }
+  if (!(largest2 <= gain2)) gain2 = largest2;
   return work;
 }
 

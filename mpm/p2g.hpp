@@ -64,6 +64,60 @@ template <int Dim, class Basis, Scatter kScatter>
   for (int e = 1; e < Dim; ++e) transpose(b[e], out.other[e - 1]);
 }
 
+/// Weights and gradients of the points of a pack, lane by lane.
+template <int Dim, class Basis>
+struct LaneStencil {
+  alignas(64) double w[Dim][Basis::nodes][Pack::lanes];
+  alignas(64) double g[Dim][Basis::nodes][Pack::lanes];
+  explicit LaneStencil(const Stencil<Dim, Basis>& s) noexcept {
+    unroll<Dim>([&](auto d) {
+      unroll<Basis::nodes>([&](auto i) {
+        store_pack(w[d][i], s.w[d][i], Pack::lanes);
+        store_pack(g[d][i], s.g[d][i], Pack::lanes);
+      });
+    });
+  }
+};
+
+/// What point `k` of a pack gives to the nodes of its stencil; `target(n)` is node n.
+template <int Dim, class Basis, class Target>
+void give_to_nodes(const LaneStencil<Dim, Basis>& s, const Contributions<Dim>& give, int k,
+                   Target&& target) noexcept {
+  constexpr int N = Basis::nodes;
+  const auto& w = s.w;
+  const auto& g = s.g;
+  NodeVector row[N], column[N];
+  unroll<N>([&](auto i) {
+    row[i] = weight_and_gradient<Dim>(w[0][i][k], g[0][i][k]) * give.a[k];
+    if constexpr (i > 0) row[i] += (double(i) * w[0][i][k]) * give.b[k];
+  });
+  unroll<N>([&](auto j) {
+    column[j] = weight_and_gradient<Dim>(double(j) * w[1][j][k], g[1][j][k]) * give.other[0][k];
+  });
+  if constexpr (Dim == 2) {
+    unroll<N>([&](auto j) {
+      unroll<N>([&](auto i) {
+        target(std::integral_constant<int, i + N * j>{}) +=
+            w[1][j][k] * row[i] + w[0][i][k] * column[j];
+      });
+    });
+  } else {
+    unroll<N>([&](auto l) {
+      const double wz = w[Dim - 1][l][k];
+      const NodeVector layer =
+          weight_and_gradient<Dim>(double(l) * wz, g[Dim - 1][l][k]) * give.other[Dim - 2][k];
+      unroll<N>([&](auto j) {
+        const double wy = w[1][j][k], wyz = wy * wz;
+        const NodeVector rest = wz * column[j] + wy * layer;
+        unroll<N>([&](auto i) {
+          target(std::integral_constant<int, i + N * j + N * N * l>{}) +=
+              wyz * row[i] + w[0][i][k] * rest;
+        });
+      });
+    });
+  }
+}
+
 /// The points of a tile into its `window` (kWindowNodes). With Scatter::force `mean_change` is
 /// added to the normal stresses of each point of the tile: what F-bar does to the force. With
 /// Scatter::velocity `velocity` is what the points have.
@@ -93,13 +147,7 @@ template <int Dim, class Basis, Scatter kScatter>
     contributions<Dim, Basis, kScatter>(
         p, q, count, kScatter == Scatter::force ? mean_change + in_tile : nullptr, from, s, h,
         give);
-    alignas(64) double w[Dim][N][Pack::lanes], g[Dim][N][Pack::lanes];
-    unroll<Dim>([&](auto d) {
-      unroll<N>([&](auto i) {
-        store_pack(w[d][i], s.w[d][i], Pack::lanes);
-        store_pack(g[d][i], s.g[d][i], Pack::lanes);
-      });
-    });
+    const LaneStencil<Dim, Basis> lanes(s);
     for (int k = 0; k < count; ++k) {
       NodeVector* at = window + s.at[k];
       if constexpr (kHold) {
@@ -115,36 +163,7 @@ template <int Dim, class Basis, Scatter kScatter>
         else
           return at[offset(n)];
       };
-      NodeVector row[N], column[N];
-      unroll<N>([&](auto i) {
-        row[i] = weight_and_gradient<Dim>(w[0][i][k], g[0][i][k]) * give.a[k];
-        if constexpr (i > 0) row[i] += (double(i) * w[0][i][k]) * give.b[k];
-      });
-      unroll<N>([&](auto j) {
-        column[j] = weight_and_gradient<Dim>(double(j) * w[1][j][k], g[1][j][k]) * give.other[0][k];
-      });
-      if constexpr (Dim == 2) {
-        unroll<N>([&](auto j) {
-          unroll<N>([&](auto i) {
-            target(std::integral_constant<int, i + N * j>{}) +=
-                w[1][j][k] * row[i] + w[0][i][k] * column[j];
-          });
-        });
-      } else {
-        unroll<N>([&](auto l) {
-          const double wz = w[Dim - 1][l][k];
-          const NodeVector layer =
-              weight_and_gradient<Dim>(double(l) * wz, g[Dim - 1][l][k]) * give.other[Dim - 2][k];
-          unroll<N>([&](auto j) {
-            const double wy = w[1][j][k], wyz = wy * wz;
-            const NodeVector rest = wz * column[j] + wy * layer;
-            unroll<N>([&](auto i) {
-              target(std::integral_constant<int, i + N * j + N * N * l>{}) +=
-                  wyz * row[i] + w[0][i][k] * rest;
-            });
-          });
-        });
-      }
+      give_to_nodes<Dim, Basis>(lanes, give, k, target);
     }
   }
   if constexpr (kHold)

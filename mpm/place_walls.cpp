@@ -1,3 +1,5 @@
+#include "core/check.hpp"
+#include "core/elementary.hpp"
 #include "mpm/place_terrain.hpp"
 
 /// Where walls act: wall points on the grid lines that the ground and the rollers cross.
@@ -12,7 +14,7 @@ struct Piece {
   [[nodiscard]] bool steep() const { return std::abs(y1 - y0) > x1 - x0; }
   [[nodiscard]] std::array<double, 2> normal() const {
     if (y0 == y1) return {0.0, 1.0};
-    const double length = std::hypot(x1 - x0, y1 - y0);
+    const double length = hypot(x1 - x0, y1 - y0);
     return {(y0 - y1) / length, (x1 - x0) / length};
   }
 };
@@ -134,6 +136,20 @@ void place_walls(const Grid<Dim>& grid, const Ground& ground, const Rollers& rol
       place.high[d] = std::max(place.high[d], block[d] * B + B - 1);
     }
   }
+  // Walls are placed line by line over all that the points span, mostly air where they fly apart.
+  constexpr double kMostLines = 1e8;
+  double lines = 1.0, least = std::numeric_limits<double>::infinity();
+  for (int d = 0; d < Dim; ++d) {
+    const double span = std::max(0.0, double(place.high[d]) - place.low[d]) + 1.0;
+    lines *= span;
+    least = std::min(least, span);
+  }
+  lines /= least;
+  if (!(lines <= kMostLines))
+    throw NumericsError(fmt::format(
+        "the soil spans {:.2g} lines of a grid of {:.3g} m (walls are found on at most {:.0g}) use "
+        "a larger cell, or an outlet for points that fly away",
+        lines, grid.h, kMostLines));
   for (const double x : {rollers.left, rollers.right}) {
     if (!std::isfinite(x)) continue;
     WallPoint<Dim> wall;

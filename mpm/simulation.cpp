@@ -1,9 +1,12 @@
 #include "mpm/simulation.hpp"
 
+#include "core/check.hpp"
 #include "mpm/local_grid.hpp"
+#include "mpm/way.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace flowslide::mpm {
 namespace {
@@ -108,6 +111,62 @@ void sleep_or_wake(Simulation<Dim>& s) {
   }
 }
 
+/// The step by s.dt or, where that takes points too far, a shorter one.
+template <int Dim>
+void take_step(Simulation<Dim>& s, StepScratch<Dim>& scratch) {
+  constexpr double kShortest = 1e-9;
+  const double whole = s.dt;
+  const auto go = [&] {
+    return visit_basis(s.settings.basis,
+                       [&]<class Basis>(Basis) { return step<Dim, Basis>(s, scratch); });
+  };
+  // With usf stress has changed already.
+  const bool once = s.settings.update == Update::usf;
+  for (double share = go(); share != 1.0; share = go()) {
+    if (std::isnan(share))
+      throw NumericsError(fmt::format(
+          "step {}, t = {:.4g} s: velocities are no longer finite (the state has become "
+          "unphysical) check gravity, tractions, stresses at the start, and strengths and stiffness "
+          "of the materials, or try a smaller courant",
+          s.step, s.time));
+    s.dt *= share;
+    if (!once && s.dt > kShortest * whole) continue;
+    throw NumericsError(fmt::format(
+        "step {}, t = {:.4g} s: the forces are so large that points would move by more than a cell "
+        "in a step of {:.3g} s{} (the soil is accelerated beyond anything that can be followed) "
+        "check gravity, tractions, stresses at the start and the units of stiffness and density{}",
+        s.step, s.time, whole, once ? "" : ", and in any shorter one",
+        once ? ", or take update symplectic, which can shorten its step" : ""));
+  }
+}
+
+/// Throws if the last step took a point so far, or strained it so, that the result makes no sense.
+template <int Dim>
+void check_way(const Simulation<Dim>& s) {
+  const double way = std::sqrt(s.last.max_speed2) * s.dt / s.grid.h;
+  const bool far = !(way <= kFarthestWay), strained = !(s.last.max_strain <= kLargestStrain);
+  if (!far && !strained) return;
+  const Points<Dim>& p = s.points;
+  std::size_t fastest = 0;
+  double most2 = -1.0;
+  for (std::size_t q = 0; q < p.size(); ++q) {
+    double speed2 = 0.0, rate2 = 0.0;
+    for (const auto& v : p.v) speed2 += v[q] * v[q];
+    for (const auto& c : p.c) rate2 += c[q] * c[q];
+    const double size2 = far ? speed2 : rate2;
+    if (!(size2 <= most2)) fastest = q, most2 = size2;
+    if (std::isnan(size2)) break;
+  }
+  throw NumericsError(fmt::format(
+      "step {}, t = {:.4g} s: particle {} (counted from 0 in order of id) at ({:.2f}, {:.2f}) "
+      "{} in one step, with {:.3g} m/s (the grid cannot follow that) check gravity, tractions, "
+      "stiffness and strength of the materials, or try a smaller courant and velocity_limit",
+      s.step, s.time, p.index[fastest], p.x[0][fastest], p.x[Dim - 1][fastest],
+      far ? fmt::format("moved by {:.2g} cells", way)
+          : fmt::format("was strained by {:.2g}", s.last.max_strain),
+      std::sqrt(s.last.max_speed2)));
+}
+
 }  // namespace
 
 template <int Dim>
@@ -149,6 +208,10 @@ void prepare(Simulation<Dim>& s, StepScratch<Dim>& scratch, bool rebin) {
   scratch.span.resize(s.points.size() + Pack::lanes);
   scratch.scattered = false;
   visit_basis(s.settings.basis, [&]<class Basis>(Basis) { group_tiles<Dim, Basis>(s, scratch); });
+  visit_basis(s.settings.basis, [&]<class Basis>(Basis) {
+    const auto lightest = std::min_element(s.points.mass.begin(), s.points.mass.end());
+    if (lightest != s.points.mass.end()) scratch.light = *lightest / power<Dim>(Basis::nodes);
+  });
   if (rebin) s.contact.impulse.assign(s.contact.walls.size(), {});
   std::size_t most = 0;
   for (const Tile<Dim>& t : s.tiling.tiles) most = std::max<std::size_t>(most, t.last - t.first);
@@ -176,7 +239,7 @@ void advance(Simulation<Dim>& s, StepScratch<Dim>& scratch) {
   if (s.drift > 0.95 * s.grid.h || (s.sleep.on() && s.time >= s.sleep.next_look))
     prepare(s, scratch, true);
   s.dt = stable_step(s);
-  visit_basis(s.settings.basis, [&]<class Basis>(Basis) { step<Dim, Basis>(s, scratch); });
+  take_step(s, scratch);
 
   // Serial sums in a fixed order: the same bits for any number of threads.
   StressWork stress;
@@ -195,8 +258,11 @@ void advance(Simulation<Dim>& s, StepScratch<Dim>& scratch) {
   s.balance.power_end += stress.power_end;
   s.last = stress;
   s.drift += std::sqrt(stress.max_speed2) * s.dt;
+  for (const TileScratch<Dim>& t : scratch.tile)
+    if (t.outside) s.drift = std::numeric_limits<double>::infinity();
   s.time += s.dt;
   ++s.step;
+  check_way(s);
 }
 
 template double stable_step<2>(const Simulation<2>&);

@@ -68,6 +68,12 @@ struct Simulation {
   }
 };
 
+/// How far a step takes points.
+struct Way {
+  double length = 0.0;  ///< of the point that goes farthest [cells]
+  double strain = 0.0;  ///< largest |L| dt [-]
+};
+
 /// Buffers of a step, one set per thread where threads write.
 template <int Dim>
 struct StepScratch {
@@ -78,7 +84,9 @@ struct StepScratch {
   std::vector<std::int32_t> span;       ///< per point, where it was when it was scattered
   bool scattered = false;               ///< windows hold the present points; false after changes
   std::vector<TileScratch<Dim>> tile;   ///< per thread
+  double light = 0.0;                   ///< MomentumSettings::light
   std::vector<StressWork> stress_work;  ///< per tile
+  std::vector<Way> ways;                ///< per tile, where the step had to be looked at
   std::vector<GridWork<Dim>> grid_work;   ///< per block
   std::vector<GridWork<Dim>> sleep_work;  ///< per tile, of those asleep
   GridWork<Dim> contact_work;
@@ -102,13 +110,17 @@ template <int Dim>
 void prepare(Simulation<Dim>& s, StepScratch<Dim>& scratch, bool rebin);
 
 /// One step; nothing in it allocates, throws or depends on the number of threads, unless the points
-/// are binned anew. A sweep over the tiles leaves what the points give to the grid for the next
-/// step; who changes points between steps sets scratch.scattered to false.
+/// are binned anew or accelerate so hard that it has to be shortened. A sweep over the tiles leaves
+/// what the points give to the grid for the next step; who changes points between steps sets
+/// scratch.scattered to false. Throws NumericsError where a point would move too far, names it, and
+/// leaves the state useless.
 template <int Dim>
 void advance(Simulation<Dim>& s, StepScratch<Dim>& scratch);
 
-/// What advance does between choosing dt and summing up, for one basis; one file per basis.
+/// What advance does between choosing dt and summing up, for one basis; one file per basis. Returns
+/// 1 when it is done; else by how much dt has to shrink for the points not to move too far, the
+/// step not taken. Not a number: none would do.
 template <int Dim, class Basis>
-void step(Simulation<Dim>& s, StepScratch<Dim>& scratch);
+double step(Simulation<Dim>& s, StepScratch<Dim>& scratch);
 
 }  // namespace flowslide::mpm

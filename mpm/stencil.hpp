@@ -1,4 +1,5 @@
 #pragma once
+#include "core/check.hpp"
 #include "core/unroll.hpp"
 #include "mpm/basis.hpp"
 #include "mpm/grid.hpp"
@@ -67,6 +68,27 @@ std::array<double, Dim> window_corner(const Tile<Dim>& tile) noexcept {
   return corner;
 }
 
+/// True where all points of a tile, at positions `x`, touch nodes of its window only. A position
+/// that is not a number lies outside.
+template <int Dim, class Basis>
+[[gnu::flatten]] bool in_window(const std::array<StaggeredArray<double>, Dim>& x,
+                                const Tile<Dim>& tile, const Grid<Dim>& grid) noexcept {
+  // The rounding of a floor that is taken elsewhere is left to neither side.
+  constexpr double kMargin = 1e-6, kWidth = kBlockWidth<Dim> + 2;
+  const double inverse = 1.0 / grid.h;
+  const std::array<double, Dim> corner = window_corner<Dim>(tile);
+  PackMask in{Pack(0.0).v == Pack(0.0).v};
+  for (std::int32_t q = tile.first; q < tile.last; q += Pack::lanes) {
+    const int count = std::min<int>(Pack::lanes, tile.last - q);
+    unroll<Dim>([&](auto d) {
+      const Pack base =
+          (load_pack(x[d].data() + q, count) - grid.origin[d]) * inverse - corner[d] - Basis::shift;
+      in = in && base > Pack(kMargin) && base < Pack(kWidth - kMargin);
+    });
+  }
+  return all(in);
+}
+
 /// Points [q, q + count); lanes beyond repeat the last point.
 template <int Dim, class Basis>
 [[gnu::always_inline]] inline void evaluate_stencil(const Points<Dim>& p, std::int32_t q, int count,
@@ -78,6 +100,7 @@ template <int Dim, class Basis>
   unroll<Dim>([&](auto d) {
     const Pack x = (load_pack(p.x[d].data() + q, count) - grid.origin[d]) * inverse - corner[d];
     const Pack base = base_node<Basis>(x);
+    FLOWSLIDE_EXPECT(all(base >= Pack(0.0) && base <= Pack(kBlockWidth<Dim> + 1.0)));
     Basis::evaluate(x - base, s.w[d], s.g[d]);
     s.r[d] = base - x;
     index += base * double(power<d>(W));

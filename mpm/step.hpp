@@ -1,8 +1,10 @@
 #pragma once
+#include "core/elementary.hpp"
 #include "mpm/hold_asleep.hpp"
 #include "mpm/p2g.hpp"
 #include "mpm/remap.hpp"
 #include "mpm/simulation.hpp"
+#include "mpm/way.hpp"
 
 #include <cstring>
 
@@ -93,83 +95,157 @@ void gather_points(Simulation<Dim>& s, const Tile<Dim>& tile, double keep,
   }
 }
 
+/// One step as a sequence of phases, each called by every thread of a parallel region.
 template <int Dim, class Basis>
-void step(Simulation<Dim>& s, StepScratch<Dim>& scratch) {
+struct Phases {
+  Simulation<Dim>& s;
+  StepScratch<Dim>& scratch;
   const double dt = s.dt;
-  const auto blocks = static_cast<std::int32_t>(s.grid.blocks.size());
-  const MomentumSettings momentum{dt, s.settings.gravity, s.settings.cundall};
-  const double keep = s.settings.transfer == Transfer::flip ? s.settings.flip_share
-                                                            : std::exp(-dt / s.settings.relaxation);
   const Update update = s.settings.update;
-  // With musl positions stay until the new velocities have been mapped back.
-  auto& moved = update == Update::musl ? scratch.moved : s.points.x;
-  const int threads = static_cast<int>(scratch.tile.size());
-  const bool loaded = !s.loads.empty();
+  const MomentumSettings momentum{dt, s.settings.gravity, s.settings.cundall, scratch.light};
+  /// Share of its own velocity that a point keeps with aflip and flip.
+  const double keep = s.settings.transfer == Transfer::flip ? s.settings.flip_share
+                                                             : exp(-dt / s.settings.relaxation);
   // Only with symplectic updates: their windows keep what the points gave.
   const bool sleepers = !scratch.asleep.tiles.empty();
-  const bool keeps =
-      s.settings.transfer == Transfer::flip || s.settings.transfer == Transfer::aflip;
-  const double kept = keeps ? keep : 0.0;
 
-#pragma omp parallel num_threads(threads)
-  {
-    const int thread = omp_get_thread_num();
+  void strain(std::int32_t tile, TileScratch<Dim>& mine) {
+    scratch.stress_work[tile] =
+        update_stress<Dim>(s.points, s.tiling.tiles[tile], runs_of(s.tiling, tile), s.materials, dt,
+                           mine, s.settings.average_volume);
+  }
+
+  /// Strains of usf and musl, from velocities that the points map to the grid.
+  void strain_from_points(int thread) {
     TileScratch<Dim>& mine = scratch.tile[thread];
-    const auto strain = [&](std::int32_t i) {
-      scratch.stress_work[i] = update_stress<Dim>(s.points, s.tiling.tiles[i], runs_of(s.tiling, i),
-                                                  s.materials, dt, mine, s.settings.average_volume);
-    };
-    const auto strain_from_points = [&] {
-      map_velocities<Dim, Basis>(s, scratch, thread);
-      take_turns(scratch.groups, thread, [&](std::int32_t i) {
-        const Tile<Dim>& tile = s.tiling.tiles[i];
-        mine.average.span = scratch.span.data() + tile.first;
-        find_spans<Dim, Basis>(s.points, tile, s.grid, mine.average);
-        gather_gradient<Dim, Basis>(s.points, tile, s.grid, scratch.second.data(), mine);
-        strain(i);
-      });
-    };
-    if (update == Update::usf) strain_from_points();
+    map_velocities<Dim, Basis>(s, scratch, thread);
+    take_turns(scratch.groups, thread, [&](std::int32_t i) {
+      const Tile<Dim>& tile = s.tiling.tiles[i];
+      mine.average.span = scratch.span.data() + tile.first;
+      find_spans<Dim, Basis>(s.points, tile, s.grid, mine.average);
+      gather_gradient<Dim, Basis>(s.points, tile, s.grid, scratch.second.data(), mine);
+      strain(i, mine);
+    });
+  }
+
+  /// Points to grid, and the momentum balance there.
+  void to_grid(int thread) {
+    TileScratch<Dim>& mine = scratch.tile[thread];
+    if (update == Update::usf) strain_from_points(thread);
     if (!scratch.scattered) {
       const auto scatter = [&](std::int32_t i) { scatter_points<Dim, Basis>(s, i, scratch, mine); };
       take_turns(scratch.groups, thread, scatter);
       if (sleepers) take_turns(scratch.asleep, thread, scatter);
     }
+    const bool loaded = !s.loads.empty();
     if (loaded) {
 #pragma omp single
       add_loads<Dim, Basis>(s, scratch);
     }
-#pragma omp for schedule(static)
+    const auto blocks = static_cast<std::int32_t>(s.grid.blocks.size());
+    double gain2 = 0.0;
+#pragma omp for schedule(static) nowait
     for (std::int32_t b = 0; b < blocks; ++b) {
       sum_windows<Dim, Basis>(s.tiling, scratch.windows.data(), b, s.grid.nodes.data());
-      scratch.grid_work[b] = loaded ? update_momentum<Dim, true>(s.grid, b, momentum, s.full_mass)
-                                    : update_momentum<Dim, false>(s.grid, b, momentum, s.full_mass);
+      scratch.grid_work[b] =
+          loaded ? update_momentum<Dim, true>(s.grid, b, momentum, s.full_mass, gain2)
+                 : update_momentum<Dim, false>(s.grid, b, momentum, s.full_mass, gain2);
     }
-    // One thread sees to the walls while the others begin with the tiles that do not touch them.
+    mine.gain2 = gain2;
+#pragma omp barrier
+  }
+
+  /// One thread sees to the walls while the others begin with the tiles that do not touch them.
+  void at_walls(int thread) {
 #pragma omp single nowait
     scratch.contact_work = hold_at_walls(s.grid, s.contact, momentum, s.full_mass);
     if (s.settings.transfer == Transfer::fmpm) {
 #pragma omp barrier
       approach_full_mass<Dim, Basis>(s, scratch, thread);
     }
+  }
+
+  /// Grid to points; with the symplectic update stress and what the next step begins with, too.
+  void to_points(int thread) {
+    TileScratch<Dim>& mine = scratch.tile[thread];
+    // With musl positions stay until the new velocities have been mapped back.
+    auto& moved = update == Update::musl ? scratch.moved : s.points.x;
+    mine.outside = false;
     take_turns(scratch.groups, thread, [&](std::int32_t i) {
-      gather_points<Dim, Basis>(s, s.tiling.tiles[i], keep, moved, mine);
+      const Tile<Dim>& tile = s.tiling.tiles[i];
+      gather_points<Dim, Basis>(s, tile, keep, moved, mine);
+      const bool stays = in_window<Dim, Basis>(moved, tile, s.grid);
+      mine.outside = mine.outside || !stays;
       if (update != Update::symplectic) return;
       // The spans are those of the positions before this step, found when they were scattered.
-      mine.average.span = scratch.span.data() + s.tiling.tiles[i].first;
-      strain(i);
-      scatter_points<Dim, Basis>(s, i, scratch, mine);
+      mine.average.span = scratch.span.data() + tile.first;
+      strain(i, mine);
+      if (stays) scatter_points<Dim, Basis>(s, i, scratch, mine);
     });
+    const bool keeps =
+        s.settings.transfer == Transfer::flip || s.settings.transfer == Transfer::aflip;
     if (sleepers)
       take_turns(scratch.asleep, thread, [&](std::int32_t i) {
-        scratch.stress_work[i] =
-            hold_asleep<Dim, Basis>(s.tiling.tiles[i], window_of<Dim, Basis>(scratch, i), s.grid,
-                                    momentum, kept, scratch.sleep_work[i]);
+        scratch.stress_work[i] = hold_asleep<Dim, Basis>(
+            s.tiling.tiles[i], window_of<Dim, Basis>(scratch, i), s.grid, momentum,
+            keeps ? keep : 0.0, scratch.sleep_work[i]);
       });
-    if (update == Update::musl) strain_from_points();
+    if (update == Update::musl) strain_from_points(thread);
   }
-  scratch.scattered = update == Update::symplectic;
-  if (update == Update::musl) s.points.x.swap(scratch.moved);
+
+  /// What the velocities on the grid would do to the points.
+  Way look_ahead() {
+    scratch.ways.assign(s.tiling.tiles.size(), {});
+#pragma omp parallel num_threads(static_cast <int>(scratch.tile.size()))
+    {
+      const int thread = omp_get_thread_num();
+      TileScratch<Dim>& mine = scratch.tile[thread];
+      at_walls(thread);
+#pragma omp barrier
+      take_turns(scratch.groups, thread, [&](std::int32_t i) {
+        const Tile<Dim>& tile = s.tiling.tiles[i];
+        const Node* nodes = s.grid.nodes.data();
+        interpolate_tile<Dim, Basis>(s.points, tile, s.grid, nodes, mine);
+        gather_gradient<Dim, Basis>(s.points, tile, s.grid, nodes, mine);
+        scratch.ways[i] = way_of(mine, tile.last - tile.first, dt, s.grid.h);
+      });
+    }
+    Way most;
+    for (const Way& way : scratch.ways) most = farther(most, way);
+    return most;
+  }
+};
+
+template <int Dim, class Basis>
+double step(Simulation<Dim>& s, StepScratch<Dim>& scratch) {
+  Phases<Dim, Basis> phases{s, scratch};
+  const auto threads = static_cast<int>(scratch.tile.size());
+  bool doubtful = false;
+#pragma omp parallel num_threads(threads)
+  {
+    const int thread = omp_get_thread_num();
+    phases.to_grid(thread);
+    if (gains_little(s, scratch)) {
+      phases.at_walls(thread);
+      phases.to_points(thread);
+    } else if (thread == 0) {
+      doubtful = true;
+    }
+  }
+  if (doubtful) {
+    const Absorbing<Dim> absorbing = s.contact.absorbing;
+    const double share = allowed_share(s, phases.look_ahead());
+    if (share != 1.0) {
+      s.contact.absorbing = absorbing;
+      scratch.scattered = false;
+      return share;
+    }
+#pragma omp parallel num_threads(threads)
+    phases.to_points(omp_get_thread_num());
+  }
+  scratch.scattered = s.settings.update == Update::symplectic;
+  if (s.settings.update == Update::musl) s.points.x.swap(scratch.moved);
+  return 1.0;
 }
 
 }  // namespace flowslide::mpm

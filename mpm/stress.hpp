@@ -15,7 +15,7 @@ template <class M>
 struct Typed {
   typename M::Constants constants;
 };
-using TypedMaterial = AllLaws::Variant<Typed>;
+using TypedMaterial = FlowLaws::Variant<Typed>;
 
 struct SolverMaterial {
   TypedMaterial law;

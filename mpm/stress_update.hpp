@@ -35,7 +35,8 @@ template <int Dim, class M>
   constexpr int V = kVoigt<Dim>, S = static_cast<int>(M::state_names.size());
   constexpr int width = kLanes<T>;
   StressWork work;
-  T wave2 = 0.0, speed2 = 0.0, strain2 = 0.0, power_start = 0.0, power_end = 0.0;
+  T wave2 = 0.0, speed2 = 0.0, strain2 = 0.0;
+  OrderedSum<T> power_start, power_end;
   for (std::int32_t q = run.first; q < run.last; q += width) {
     const int n = std::min<int>(width, run.last - q);
     const std::int32_t k = q - tile.first;
@@ -90,11 +91,11 @@ template <int Dim, class M>
     strain2 = max(strain2, l2);
     // Lanes beyond n repeat a point.
     const auto counted = first_lanes<T>(n);
-    power_start += select(counted, volume * work_start, T(0.0));
-    power_end += select(counted, new_volume * work_end, T(0.0));
+    power_start.add(select(counted, volume * work_start, T(0.0)));
+    power_end.add(select(counted, new_volume * work_end, T(0.0)));
   }
-  work.power_start = sum_lanes(power_start, width);
-  work.power_end = sum_lanes(power_end, width);
+  work.power_start = power_start.total();
+  work.power_end = power_end.total();
   work.max_wave2 = max_lanes(wave2);
   work.max_speed2 = max_lanes(speed2);
   work.max_strain = std::sqrt(max_lanes(strain2)) * dt;

@@ -1,5 +1,7 @@
 #include "mpm/traction.hpp"
 
+#include "core/elementary.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,7 +28,7 @@ void find_points(std::vector<Load<Dim>>& loads, const Points<Dim>& points,
 
 std::size_t add_traction(const Traction& t, double depth, const Points<2>& p,
                          std::vector<Load<2>>& loads) {
-  const double dx = t.to[0] - t.from[0], dy = t.to[1] - t.from[1], length = std::hypot(dx, dy);
+  const double dx = t.to[0] - t.from[0], dy = t.to[1] - t.from[1], length = hypot(dx, dy);
   const std::array<double, 2> along{dx / length, dy / length}, normal{-along[1], along[0]};
   const std::size_t first = loads.size();
   double volume = 0.0;

@@ -1,11 +1,12 @@
 #include "transfer/audit.hpp"
 
+#include "core/elementary.hpp"
+#include "core/files.hpp"
 #include "model/shape_quad.hpp"
 #include "transfer/gauss_rule.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include <nlohmann/json.hpp>
 
@@ -26,7 +27,7 @@ void add_motion(const SeedDomain& domain, const std::vector<Vec2>& velocity, std
                        jacobian(reference, rule.point[i], rule.point[j]);
       const Vec2 u = interpolate(v, rule.point[i], rule.point[j]);
       for (int k = 0; k < 2; ++k) sum.momentum[k] += m * u[k];
-      sum.speed_sum += m * std::hypot(u[0], u[1]);
+      sum.speed_sum += m * hypot(u[0], u[1]);
       sum.kinetic_energy += 0.5 * m * (u[0] * u[0] + u[1] * u[1]);
     }
   }
@@ -94,7 +95,7 @@ StateIntegrals integrate(const ParticleSet& particles) {
     for (int i = 0; i < 4; ++i) sum.stress[i] += v * particles.stress[p][i];
     sum.overburden += v * std::abs(particles.stress[p][1]);
     for (int k = 0; k < 2; ++k) sum.momentum[k] += m * u[k];
-    sum.speed_sum += m * std::hypot(u[0], u[1]);
+    sum.speed_sum += m * hypot(u[0], u[1]);
     sum.kinetic_energy += 0.5 * m * (u[0] * u[0] + u[1] * u[1]);
   }
   return sum;
@@ -218,22 +219,7 @@ void write_audit(const std::filesystem::path& path, const TransferAudit& audit) 
                       {"base_displacement_m", audit.base_displacement},
                       {"base_velocity_m_per_s", audit.base_velocity},
                       {"notes", audit.notes}};
-
-  std::filesystem::path partial = path;
-  partial += ".partial";
-  {
-    std::ofstream file(partial, std::ios::binary);
-    file << document.dump(2) << '\n';
-    file.flush();
-    if (!file)
-      throw FileError(
-          fmt::format("{}: cannot be written (no permission or no space)", partial.string()));
-  }
-  std::error_code error;
-  std::filesystem::rename(partial, path, error);
-  if (error)
-    throw FileError(fmt::format("{}: cannot be renamed to {} ({})", partial.string(),
-                                path.filename().string(), error.message()));
+  write_file(path, document.dump(2) + '\n');
 }
 
 }  // namespace flowslide

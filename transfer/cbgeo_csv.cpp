@@ -1,12 +1,11 @@
 #include "transfer/cbgeo_csv.hpp"
 
 #include "core/check.hpp"
+#include "core/files.hpp"
 
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <string>
-#include <system_error>
 
 #include <fmt/format.h>
 
@@ -82,26 +81,11 @@ void write_cbgeo_csv(const std::filesystem::path& path, const ParticleSet& parti
            "{}: the points have {} dimensions (the CB-Geo table of the script is plane strain) "
            "write another format",
            path.string(), particles.dim);
-  const std::filesystem::path partial = path.string() + ".partial";
-  {
-    std::ofstream out(partial, std::ios::binary);
-    out << fmt::format("{}\n", fmt::join(kCbgeoColumns, ","));
-    const Columns columns(particles);
-    for (std::size_t i = 0; i < particles.size() && out; ++i) out << row(particles, columns, i);
-    out.close();
-    if (!out) {
-      throw FileError(
-          fmt::format("cannot write {} (the folder is missing or read-only, or the disk "
-                      "is full) check the path and free space",
-                      partial.string()));
-    }
-  }
-  std::error_code error;
-  std::filesystem::rename(partial, path, error);
-  if (error) {
-    throw FileError(fmt::format("cannot rename {} to {} ({})", partial.string(), path.string(),
-                                error.message()));
-  }
+  OutputFile out(path);
+  out.write(fmt::format("{}\n", fmt::join(kCbgeoColumns, ",")));
+  const Columns columns(particles);
+  for (std::size_t i = 0; i < particles.size(); ++i) out.write(row(particles, columns, i));
+  out.commit();
 }
 
 }  // namespace flowslide

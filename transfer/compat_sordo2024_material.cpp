@@ -2,6 +2,7 @@
 
 #include "constitutive/materials.hpp"
 #include "core/conventions.hpp"
+#include "core/elementary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +49,7 @@ std::array<double, 2> sordo_softened(const SordoConfig& c, int tag, double eps_q
   const std::vector<double>& r = *row;
   const double degree = std::clamp((eps_q - r[5]) / (r[6] - r[5]), 0.0, 1.0);
   const double phi = r[1] + (r[2] - r[1]) * degree;
-  return {std::tan(phi * (kScriptPi / kPi)), r[3] + (r[4] - r[3]) * degree};
+  return {tan(phi * (kScriptPi / kPi)), r[3] + (r[4] - r[3]) * degree};
 }
 
 MaterialSpec sordo_material(const SordoConfig& c, int tag) {

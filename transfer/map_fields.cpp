@@ -1,5 +1,6 @@
 #include "transfer/map_fields.hpp"
 
+#include "core/elementary.hpp"
 #include "transfer/point_map.hpp"
 
 #include <algorithm>
@@ -31,7 +32,7 @@ SourceSet gather(const MappedState& state, const SeedSet& seeds, UseElement use_
     if (!use_element(e)) continue;
     const std::array<Vec2, 4> q = corners(state.mesh, state.positions, e);
     const auto mid_line = [&q](int a, int b, int c, int d) {
-      return 0.5 * std::hypot(q[a][0] + q[b][0] - q[c][0] - q[d][0],
+      return 0.5 * hypot(q[a][0] + q[b][0] - q[c][0] - q[d][0],
                               q[a][1] + q[b][1] - q[c][1] - q[d][1]);
     };
     source_of[e] = static_cast<std::int32_t>(s.sources.size());
@@ -75,7 +76,8 @@ void map_motion(const MappedState& state, const SeedSet& seeds, ParticleSet& p) 
 }
 
 void map_stress(const MappedState& state, const SeedSet& seeds, const MapGroups& groups,
-                const MapConfig& config, ParticleSet& p, MapCounts& counts) {
+                const MapConfig& config, const Progress& progress, ParticleSet& p,
+                MapCounts& counts) {
   const bool total = config.mapped_stress == MappedStress::total;
   for (std::int32_t family = 0; family < static_cast<std::int32_t>(config.materials.size());
        ++family) {
@@ -84,7 +86,7 @@ void map_stress(const MappedState& state, const SeedSet& seeds, const MapGroups&
         [&](const Seed& seed) {
           return groups.groups[static_cast<std::size_t>(seed.group)].family == family;
         });
-    const PointMap map = build_mls(s.sources, s.targets, config.mls_radius);
+    const PointMap map = build_mls(s.sources, s.targets, config.mls_radius, progress);
     counts.widened += map.widened;
     counts.nearest += map.nearest;
     std::vector<Stress<2>> value(s.sources.size());
@@ -154,7 +156,8 @@ double pore_pressure_ratio(const MappedState& state, const SeedPiece& piece) {
 }
 
 void map_strength(const MappedState& state, const SeedSet& seeds, const MapGroups& groups,
-                  const MapConfig& config, std::vector<double>& strength) {
+                  const MapConfig& config, const Progress& progress,
+                  std::vector<double>& strength) {
   for (std::size_t e = 0; e < state.mesh.num_elements(); ++e)
     validate(!state.zone.liquefied[e] || groups.group[e] < 0 || state.zone.strength[e] > 0.0,
              "map: liquefied element {} has strength {} Pa in the zone (a positive S_r is needed). "
@@ -176,7 +179,7 @@ void map_strength(const MappedState& state, const SeedSet& seeds, const MapGroup
     const SourceSet s = gather(
         state, seeds, [&](std::size_t e) { return groups.group[e] == group; },
         [&](const Seed& seed) { return seed.group == group; });
-    const PointMap map = build_mls(s.sources, s.targets, config.mls_radius);
+    const PointMap map = build_mls(s.sources, s.targets, config.mls_radius, progress);
     for (std::size_t t = 0; t < map.num_targets(); ++t) {
       double value = 0.0, low = std::numeric_limits<double>::infinity(), high = 0.0;
       for (std::size_t k = map.offset[t]; k < map.offset[t + 1]; ++k) {
@@ -227,18 +230,20 @@ BaseMotion base_motion(const QuadMesh& mesh, const FemFrame& frame, const Box& b
 }
 
 ParticleSet map_fields(const MappedState& state, const SeedSet& seeds, const MapGroups& groups,
-                       const MapConfig& config, MapCounts& counts) {
+                       const MapConfig& config, const Progress& progress, MapCounts& counts) {
   ParticleSet p;
   p.dim = 2;
   for (const char* name : {"plastic_strain", "strength", "soft_strength", "r_u"})
     p.history[name].assign(seeds.seeds.size(), 0.0);
   resize(p, seeds.seeds.size());
   map_motion(state, seeds, p);
-  map_stress(state, seeds, groups, config, p, counts);
+  progress.poll();
+  map_stress(state, seeds, groups, config, progress, p, counts);
   map_strain(state, seeds, groups, config, p.history["plastic_strain"]);
   std::vector<double>& strength = p.history["strength"];
-  map_strength(state, seeds, groups, config, strength);
+  map_strength(state, seeds, groups, config, progress, strength);
   for (std::size_t i = 0; i < seeds.seeds.size(); ++i) {
+    progress.poll();
     p.history["soft_strength"][i] = config.c_soft_ratio.value_or(1.0) * strength[i];
     for (const SeedPiece& piece : pieces_of(seeds, seeds.seeds[i]))
       p.history["r_u"][i] +=

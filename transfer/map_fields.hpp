@@ -1,4 +1,5 @@
 #pragma once
+#include "core/progress.hpp"
 #include "model/history.hpp"
 #include "model/particle_set.hpp"
 #include "model/zone.hpp"
@@ -43,6 +44,7 @@ struct MapCounts {
 /// family, before any return; history "plastic_strain", "strength", "soft_strength" [Pa], "r_u".
 /// Strengths are 0 on points whose law does not read them.
 ParticleSet map_fields(const MappedState& state, const SeedSet& seeds, const MapGroups& groups,
-                       const MapConfig& config, MapCounts& counts);
+                       const MapConfig& config, const Progress& progress,
+                       MapCounts& counts);
 
 }  // namespace flowslide

@@ -21,15 +21,41 @@ bool touches(const Box& box, const std::array<Vec2, 4>& quad) {
   return area_moment(clip(p, box)).area > 0.0;
 }
 
+struct Family {
+  const std::string* name;
+  const MapMaterial* material;
+  bool has_liquefied = false;
+  std::int32_t dry = -1, liquefied = -1;  ///< groups
+};
+
+/// The family of an element's soil, or -1 outside the box. Throws InputError for soil of the box
+/// that no material lists, and for liquefied soil without a law.
+std::int32_t family_of(std::size_t e, const QuadMesh& mesh, const std::vector<Vec2>& positions,
+                       const Box& box, const LiquefactionZone& zone,
+                       const std::map<int, std::int32_t>& family_of_tag,
+                       const std::vector<Family>& families) {
+  const auto found = family_of_tag.find(mesh.element_material[e]);
+  if (found == family_of_tag.end()) {
+    validate(!touches(box, corners(mesh, positions, e)),
+             "map: element {} has material tag {}, which no material lists (its mass and law are "
+             "unknown). Add the tag to the tags of a material, or leave the element outside the "
+             "box",
+             mesh.element_tags[e], mesh.element_material[e]);
+    return -1;
+  }
+  const Family& f = families[static_cast<std::size_t>(found->second)];
+  validate(!zone.liquefied[e] || f.material->liquefied,
+           "map: element {} of material '{}' has liquefied, but the material has no law for "
+           "liquefied soil (its strength would be that of intact soil). Add liquefied: "
+           "{{youngs_modulus: ..., poisson_ratio: ...}} to it, or exclude it from the zone",
+           mesh.element_tags[e], *f.name);
+  return found->second;
+}
+
 }  // namespace
 
 MapGroups group_elements(const QuadMesh& mesh, const std::vector<Vec2>& positions, const Box& box,
                          const LiquefactionZone& zone, const MapConfig& config) {
-  struct Family {
-    const std::string* name;
-    const MapMaterial* material;
-    std::int32_t dry = -1, liquefied = -1;  ///< groups
-  };
   std::vector<Family> families;
   std::map<int, std::int32_t> family_of_tag;
   for (const auto& [name, material] : config.materials) {
@@ -43,26 +69,14 @@ MapGroups group_elements(const QuadMesh& mesh, const std::vector<Vec2>& position
   result.group.assign(n, -1);
   result.family.assign(n, -1);
   result.density.assign(n, 0.0);
-  std::vector<bool> has_liquefied(families.size(), false);
   for (std::size_t e = 0; e < n; ++e) {
-    const auto found = family_of_tag.find(mesh.element_material[e]);
-    if (found == family_of_tag.end()) {
-      validate(
-          !touches(box, corners(mesh, positions, e)),
-          "map: element {} has material tag {}, which no material lists (its mass and law are "
-          "unknown). Add the tag to the tags of a material, or leave the element outside the box",
-          mesh.element_tags[e], mesh.element_material[e]);
-      continue;
-    }
-    const Family& f = families[static_cast<std::size_t>(found->second)];
-    validate(!zone.liquefied[e] || f.material->liquefied,
-             "map: element {} of material '{}' has liquefied, but the material has no law for "
-             "liquefied soil (its strength would be that of intact soil). Add liquefied: "
-             "{{youngs_modulus: ..., poisson_ratio: ...}} to it, or exclude it from the zone",
-             mesh.element_tags[e], *f.name);
-    result.family[e] = found->second;
+    const std::int32_t k =
+        family_of(e, mesh, positions, box, zone, family_of_tag, families);
+    if (k < 0) continue;
+    Family& f = families[static_cast<std::size_t>(k)];
+    result.family[e] = k;
     result.density[e] = f.material->density;
-    if (zone.liquefied[e]) has_liquefied[static_cast<std::size_t>(found->second)] = true;
+    f.has_liquefied = f.has_liquefied || zone.liquefied[e];
   }
 
   for (std::size_t k = 0; k < families.size(); ++k) {
@@ -71,7 +85,7 @@ MapGroups group_elements(const QuadMesh& mesh, const std::vector<Vec2>& position
     f.dry = static_cast<std::int32_t>(result.groups.size());
     result.groups.push_back(
         make_group(*f.name, make_material(f.material->law, *f.name), *f.material, family, false));
-    if (!has_liquefied[k]) continue;
+    if (!f.has_liquefied) continue;
     f.liquefied = static_cast<std::int32_t>(result.groups.size());
     result.groups.push_back(make_group("liquefied " + *f.name,
                                        Material<ResidualStrength>{*f.material->liquefied},

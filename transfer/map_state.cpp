@@ -84,9 +84,10 @@ struct LawReturn {
 };
 
 void return_stresses(ParticleSet& p, const std::vector<MapGroup>& groups, const MapConfig& config,
-                     TransferAudit& audit) {
+                     const Progress& progress, TransferAudit& audit) {
   for (const MapGroup& g : groups) audit.materials.push_back({g.spec.name});
   for (std::size_t i = 0; i < p.size(); ++i) {
+    progress.poll();
     const auto g = static_cast<std::size_t>(p.material[i]);
     LawReturn law{config};
     const Stress<2> returned =
@@ -102,10 +103,11 @@ void return_stresses(ParticleSet& p, const std::vector<MapGroup>& groups, const 
   }
 }
 
-SeedSet place_points(const SeedDomain& domain, const MapConfig& config) {
+SeedSet place_points(const SeedDomain& domain, const MapConfig& config, const Progress& progress) {
   if (config.seeding == Seeding::gauss) return seed_gauss(domain, config.points_per_cell);
   return seed_lattice(
-      domain, {config.cell / config.points_per_cell, config.grid_origin, config.sliver_fraction});
+      domain, {config.cell / config.points_per_cell, config.grid_origin, config.sliver_fraction},
+      progress);
 }
 
 void copy_counts(const SeedSet& seeds, const MapCounts& counts, AuditCounts& out) {
@@ -121,7 +123,8 @@ void copy_counts(const SeedSet& seeds, const MapCounts& counts, AuditCounts& out
 }  // namespace
 
 MapResult map_state(const QuadMesh& mesh, const FemFrame& gravity, const FemFrame* shaking,
-                    const LiquefactionZone& zone, const MapConfig& config) {
+                    const LiquefactionZone& zone, const MapConfig& config,
+                    const Progress& progress) {
   check(config);
   check_zone(mesh, zone);
   check_lengths(mesh, gravity, "state at rest");
@@ -141,7 +144,7 @@ MapResult map_state(const QuadMesh& mesh, const FemFrame& gravity, const FemFram
 
   const MapGroups groups = group_elements(mesh, state.positions, box, zone, config);
   const SeedDomain domain{mesh, state.positions, groups.density, groups.group, box};
-  const SeedSet seeds = place_points(domain, config);
+  const SeedSet seeds = place_points(domain, config, progress);
   validate(
       !seeds.seeds.empty(),
       "map: no element lies inside the box (there is nothing to transfer). Check box and tags");
@@ -149,7 +152,7 @@ MapResult map_state(const QuadMesh& mesh, const FemFrame& gravity, const FemFram
   MapResult result;
   ParticleSet& p = result.particles;
   MapCounts counts;
-  p = map_fields(state, seeds, groups, config, counts);
+  p = map_fields(state, seeds, groups, config, progress, counts);
   std::iota(p.id.begin(), p.id.end(), std::int64_t{0});
   for (const MapGroup& g : groups.groups) p.materials.push_back(g.spec);
 
@@ -163,10 +166,11 @@ MapResult map_state(const QuadMesh& mesh, const FemFrame& gravity, const FemFram
   const StateIntegrals fem = integrate(domain, velocity, frame.pore_pressure, frame.stress,
                                        config.seeding == Seeding::gauss);
   const StateIntegrals mapped = integrate(p);
+  progress.poll();
   audit.mapped = out_of_balance(p, config.cell, config.grid_origin, full_cell);
   if (config.friction_acts_on == FrictionStress::total)
     std::fill(p.pore_pressure.begin(), p.pore_pressure.end(), 0.0);
-  return_stresses(p, groups.groups, config, audit);
+  return_stresses(p, groups.groups, config, progress, audit);
   audit.returned = out_of_balance(p, config.cell, config.grid_origin, full_cell);
   fill_checks(audit, fem, mapped, integrate(p), config.audit);
   for (const AuditMaterial& m : audit.materials)
@@ -177,20 +181,21 @@ MapResult map_state(const QuadMesh& mesh, const FemFrame& gravity, const FemFram
 }
 
 MapResult map_state(const FemHistory& history, const LiquefactionZone& zone,
-                    const MapConfig& config) {
+                    const MapConfig& config, const Progress& progress) {
   if (config.compat == Compat::sordo2024) {
     check(config);
     return map_sordo2024_audited(history, config);
   }
   const FemFrame& gravity = history.gravity();
-  if (zone.transfer_frame < 0) return map_state(history.mesh(), gravity, nullptr, zone, config);
+  if (zone.transfer_frame < 0) 
+    return map_state(history.mesh(), gravity, nullptr, zone, config, progress);
   validate(static_cast<std::size_t>(zone.transfer_frame) < history.times().size(),
            "map: the zone names frame {} but the history has {} (it belongs to another history). "
            "Run the "
            "stage transfer.zone on this history",
            zone.transfer_frame, history.times().size());
   const FemFrame frame = history.frame(static_cast<std::size_t>(zone.transfer_frame));
-  return map_state(history.mesh(), gravity, &frame, zone, config);
+  return map_state(history.mesh(), gravity, &frame, zone, config, progress);
 }
 
 }  // namespace flowslide

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/progress.hpp"
 #include "model/history.hpp"
 #include "model/particle_set.hpp"
 #include "model/zone.hpp"
@@ -16,12 +17,13 @@ struct MapResult {
 
 /// The frame is that of the zone. Throws InputError for data that do not fit together, and
 /// NumericsError listing the checks of the audit that exceed their limits, unless the config says
-/// not to enforce them.
+/// not to enforce them; Interrupted.
 MapResult map_state(const FemHistory& history, const LiquefactionZone& zone,
-                    const MapConfig& config);
+                    const MapConfig& config, const Progress& progress = {});
 
 /// The same from states in memory; `shaking` null transfers the state at rest.
 MapResult map_state(const QuadMesh& mesh, const FemFrame& gravity, const FemFrame* shaking,
-                    const LiquefactionZone& zone, const MapConfig& config);
+                    const LiquefactionZone& zone, const MapConfig& config,
+                    const Progress& progress = {});
 
 }  // namespace flowslide

@@ -1,6 +1,7 @@
 #include "transfer/out_of_balance.hpp"
 
 #include "core/conventions.hpp"
+#include "core/elementary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -48,6 +49,12 @@ OutOfBalance out_of_balance(const ParticleSet& particles, double cell, Vec2 orig
       high[i] = std::max(high[i], (x[i] - origin[i]) / cell);
     }
   }
+  constexpr double kMostNodes = 2e8, kFarthest = 1e9;
+  validate(low[0] > -kFarthest && low[1] > -kFarthest && high[0] < kFarthest &&
+               high[1] < kFarthest && (high[0] - low[0] + 5) * (high[1] - low[1] + 5) < kMostNodes,
+           "a grid of {:g} m cells from ({:g}, {:g}) under the points has {:.2g} nodes (at most "
+           "{:g} are looked at) use a larger cell, or a grid_origin near the section",
+           cell, origin[0], origin[1], (high[0] - low[0] + 5) * (high[1] - low[1] + 5), kMostNodes);
   // Two more nodes on each side hold every support.
   const auto i0 = static_cast<std::int64_t>(std::floor(low[0])) - 2;
   const auto j0 = static_cast<std::int64_t>(std::floor(low[1])) - 2;
@@ -88,7 +95,7 @@ OutOfBalance out_of_balance(const ParticleSet& particles, double cell, Vec2 orig
           interior = volume[at(a, b)] >= full_cell * cell * cell;
       if (!interior) continue;
       const Node& n = nodes[at(i, j)];
-      const double acceleration = std::hypot(n.fx, n.fy) / (n.mass * kGravity);
+      const double acceleration = hypot(n.fx, n.fy) / (n.mass * kGravity);
       sum += acceleration * acceleration;
       ++result.nodes;
       if (!(acceleration <= result.max)) {

@@ -1,5 +1,7 @@
 #include "transfer/point_map.hpp"
 
+#include "core/elementary.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -85,7 +87,7 @@ bool fit_linear(std::span<const MlsSource> sources, const std::vector<std::int32
   };
   for (const std::int32_t k : candidates) {
     const Eigen::Vector3d b = basis(k);
-    const double s = std::hypot(b[1], b[2]);
+    const double s = hypot(b[1], b[2]);
     if (!(s < 1.0)) continue;
     const double w = quartic_spline(s);
     moments += w * b * b.transpose();
@@ -109,7 +111,7 @@ bool fit_linear(std::span<const MlsSource> sources, const std::vector<std::int32
 }  // namespace
 
 PointMap build_mls(std::span<const MlsSource> sources, std::span<const MlsTarget> targets,
-                   double radius) {
+                   double radius, const Progress& progress) {
   PointMap map;
   if (targets.empty()) return map;
   double mean_size = 0.0;
@@ -118,6 +120,7 @@ PointMap build_mls(std::span<const MlsSource> sources, std::span<const MlsTarget
   std::vector<std::int32_t> candidates;
   Fit fit;
   for (const MlsTarget& t : targets) {
+    progress.poll();
     double reach = radius * sources[static_cast<std::size_t>(t.home)].size;
     bool stable = false;
     for (int growth = 0; growth <= kMaxGrowths && !stable; ++growth, reach *= kGrowth) {

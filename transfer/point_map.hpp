@@ -1,4 +1,5 @@
 #pragma once
+#include "core/progress.hpp"
 #include "model/mesh.hpp"
 
 #include <cstddef>
@@ -36,6 +37,6 @@ struct MlsTarget {
 /// times, until the fit is stable: at least four sources, well-conditioned moments and sum |weight|
 /// <= 4; otherwise the target takes its home's value.
 PointMap build_mls(std::span<const MlsSource> sources, std::span<const MlsTarget> targets,
-                   double radius);
+                   double radius, const Progress& progress = {});
 
 }  // namespace flowslide

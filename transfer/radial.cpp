@@ -1,6 +1,7 @@
 #include "transfer/radial.hpp"
 
 #include "core/check.hpp"
+#include "core/elementary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,18 +21,6 @@ double multiquadric(const Vec2& a, const Vec2& b, double epsilon) {
   return std::sqrt(r * r + 1.0);
 }
 
-/// Eigen divides its matrix products by the number of threads, which changes the order of sums.
-class OneEigenThread {
- public:
-  OneEigenThread() : before_(Eigen::nbThreads()) { Eigen::setNbThreads(1); }
-  ~OneEigenThread() { Eigen::setNbThreads(before_); }
-  OneEigenThread(const OneEigenThread&) = delete;
-  OneEigenThread& operator=(const OneEigenThread&) = delete;
-
- private:
-  int before_;
-};
-
 Eigen::MatrixXd weights(const std::vector<Vec2>& centres, const Eigen::MatrixXd& values,
                         double epsilon) {
   const auto n = static_cast<Eigen::Index>(centres.size());
@@ -40,7 +29,6 @@ Eigen::MatrixXd weights(const std::vector<Vec2>& centres, const Eigen::MatrixXd&
     for (Eigen::Index i = 0; i < n; ++i)
       matrix(i, j) = multiquadric(centres[i], centres[j], epsilon);
   }
-  const OneEigenThread one_thread;
   const Eigen::PartialPivLU<Eigen::MatrixXd> lu(matrix);
   Eigen::MatrixXd w = lu.solve(values);
   const Eigen::MatrixXd residual = matrix * w - values;
@@ -75,7 +63,7 @@ double multiquadric_epsilon(const std::vector<Vec2>& centres) {
   }
   validate(edges > 0, "all {} element centres lie in one point (no spacing can be found)",
            centres.size());
-  return std::pow(product / static_cast<double>(centres.size()), 1.0 / edges);
+  return pow(product / static_cast<double>(centres.size()), 1.0 / edges);
 }
 
 Eigen::MatrixXd interpolate_multiquadric(const std::vector<Vec2>& centres,

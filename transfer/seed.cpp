@@ -1,6 +1,7 @@
 #include "transfer/seed.hpp"
 
 #include "core/check.hpp"
+#include "core/memory.hpp"
 #include "model/shape_quad.hpp"
 #include "transfer/gauss_rule.hpp"
 
@@ -14,6 +15,10 @@ namespace flowslide {
 namespace {
 
 constexpr double kMaxCells = 5e7;
+/// What a point takes while it is seeded and mapped: fragments, pieces, weights of the stress,
+/// fields [bytes].
+constexpr double kBytesPerPoint = 1500.0;
+constexpr double kMostRows = 1e9;  ///< of the lattice, counted from its origin
 
 /// The part of one element in one lattice cell.
 struct Fragment {
@@ -77,7 +82,7 @@ std::int64_t cell_index(double x, double origin, double spacing) {
 }
 
 void append_fragments(const SeedDomain& domain, const LatticeOptions& o, std::size_t e,
-                      std::vector<Fragment>& out, int& split) {
+                      const Progress& progress, std::vector<Fragment>& out, int& split) {
   const std::array<Vec2, 4> quad = corners(domain.mesh, domain.positions, e);
   const double reference = area(corners(domain.mesh, domain.mesh.nodes, e));
   const ConvexParts parts = upright_parts(domain, e);
@@ -91,6 +96,7 @@ void append_fragments(const SeedDomain& domain, const LatticeOptions& o, std::si
     const Box b = bounds(whole);
     const std::int64_t row_end = cell_index(b.ymax, o.origin[1], o.spacing);
     for (std::int64_t row = cell_index(b.ymin, o.origin[1], o.spacing); row <= row_end; ++row) {
+      progress.poll();
       const double y = o.origin[1] + static_cast<double>(row) * o.spacing;
       const double y_next = o.origin[1] + static_cast<double>(row + 1) * o.spacing;
       const Polygon strip = clip(clip(whole, 1, y, Side::above), 1, y_next, Side::below);
@@ -111,9 +117,10 @@ void append_fragments(const SeedDomain& domain, const LatticeOptions& o, std::si
   }
 }
 
-std::vector<Cell> gather_cells(std::vector<Fragment>& fragments) {
+std::vector<Cell> gather_cells(std::vector<Fragment>& fragments, const Progress& progress) {
   const auto key = [](const auto& f) { return std::tuple(f.row, f.column, f.group); };
   std::sort(fragments.begin(), fragments.end(), [&](const Fragment& a, const Fragment& b) {
+    progress.poll();
     return std::tuple(key(a), -a.part.area, a.element, a.part.centroid) <
            std::tuple(key(b), -b.part.area, b.element, b.part.centroid);
   });
@@ -186,10 +193,8 @@ void append_seed(const SeedDomain& domain, std::vector<const Fragment*>& fragmen
   set.seeds.push_back(seed);
 }
 
-}  // namespace
-
-SeedSet seed_lattice(const SeedDomain& domain, const LatticeOptions& options) {
-  SeedSet set;
+/// Refuses a lattice that does not fit in memory or whose rows cannot be numbered.
+void check_lattice(const SeedDomain& domain, const LatticeOptions& options) {
   double cells_expected = 0.0;
   for (std::size_t e = 0; e < domain.mesh.num_elements(); ++e)
     if (domain.group[e] >= 0)
@@ -200,14 +205,34 @@ SeedSet seed_lattice(const SeedDomain& domain, const LatticeOptions& options) {
            "memory). Use a "
            "larger cell or fewer points per cell",
            options.spacing, cells_expected, kMaxCells);
+  need_memory(cells_expected * kBytesPerPoint,
+              fmt::format("a lattice of {:.3g} m, {:.2g} points,", options.spacing, cells_expected),
+              "use a larger cell or fewer points per cell");
+  for (const Vec2& p : domain.positions)
+    for (int i = 0; i < 2; ++i)
+      validate(std::abs(p[i] - options.origin[i]) < kMostRows * options.spacing,
+               "grid_origin ({:g}, {:g}) lies {:.3g} m from the soil (a lattice of {:.3g} m cannot "
+               "be counted so far) move it near the section",
+               options.origin[0], options.origin[1], std::abs(p[i] - options.origin[i]),
+               options.spacing);
+}
+
+}  // namespace
+
+SeedSet seed_lattice(const SeedDomain& domain, const LatticeOptions& options,
+                     const Progress& progress) {
+  check_lattice(domain, options);
+  SeedSet set;
   std::vector<Fragment> fragments;
   for (std::size_t e = 0; e < domain.mesh.num_elements(); ++e)
-    if (domain.group[e] >= 0) append_fragments(domain, options, e, fragments, set.split_elements);
+    if (domain.group[e] >= 0)
+      append_fragments(domain, options, e, progress, fragments, set.split_elements);
 
-  std::vector<Cell> cells = gather_cells(fragments);
+  std::vector<Cell> cells = gather_cells(fragments, progress);
   const double limit = options.sliver_fraction * options.spacing * options.spacing;
   std::vector<std::vector<std::size_t>> guests(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
+    progress.poll();
     if (cells[i].area > limit) continue;
     cells[i].host = find_host(cells, i, limit);
     if (cells[i].host == i) {
@@ -219,6 +244,7 @@ SeedSet seed_lattice(const SeedDomain& domain, const LatticeOptions& options) {
   }
   std::vector<const Fragment*> members;
   for (std::size_t i = 0; i < cells.size(); ++i) {
+    progress.poll();
     if (cells[i].host != i) continue;
     members.clear();
     for (std::size_t k = cells[i].first; k < cells[i].last; ++k) members.push_back(&fragments[k]);

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/progress.hpp"
 #include "model/mesh.hpp"
 #include "transfer/polygon.hpp"
 
@@ -53,8 +54,10 @@ struct LatticeOptions {
 };
 
 /// One point per lattice cell and group, at the centroid of the clipped area, ordered by cell (rows
-/// from below, then columns) and group. Throws InputError for folded elements, naming them.
-SeedSet seed_lattice(const SeedDomain& domain, const LatticeOptions& options);
+/// from below, then columns) and group. Throws InputError for folded elements, naming them, and for
+/// more points than fit in memory.
+SeedSet seed_lattice(const SeedDomain& domain, const LatticeOptions& options,
+                     const Progress& progress = {});
 
 /// order x order points per element at the Gauss points, with the exact Jacobian as weight, in
 /// the order of the elements. Elements count as inside the box by their deformed centroid; order is

@@ -1,6 +1,7 @@
 #include "transfer/yield_return.hpp"
 
 #include "constitutive/principal.hpp"
+#include "core/elementary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +10,7 @@ namespace flowslide {
 
 double relative_violation(const MohrCoulombSurface<double>& surface, const Stress<2>& stress) {
   const double centre = 0.5 * (stress[0] + stress[1]);
-  const double radius = std::hypot(0.5 * (stress[0] - stress[1]), stress[3]);
+  const double radius = hypot(0.5 * (stress[0] - stress[1]), stress[3]);
   const Sorted3<double> s = sort3(centre + radius, centre - radius, stress[2]);
   const double unconfined = std::max(surface.sigma_c, 1.0);
   const double confined = std::max(surface.sigma_c - surface.k * s.hi, unconfined);

@@ -106,7 +106,7 @@ LiquefactionZone find_zone(const FemHistory& history, const ZoneConfig& config,
   const ZoneHistory& h = zone.history;
   zone.window_names = h.window_names;
   std::size_t w = 0;
-  for (const auto& [name, window] : config.windows) {
+  for (const auto& [name, window] : windows_or_all(config)) {
     zone.window_depth_max.push_back(config.zone == ZoneExtent::automatic
                                         ? h.depth_max[w][static_cast<std::size_t>(choice.frame)]
                                         : depth_of_shape(mesh, parts, shape, window, config));

@@ -3,6 +3,7 @@
 #include "core/check.hpp"
 
 #include <cmath>
+#include <limits>
 #include <set>
 
 namespace flowslide {
@@ -57,7 +58,10 @@ void Schema<TransferRuleConfig>::describe(FieldVisitor& v, TransferRuleConfig& c
   v.rows("densities", c.densities, kDensity,
          "density of each material tag, for the kinetic energy");
   v.group("box", c.box, "part of the section that counts");
-  v.table("windows", c.windows, "ranges of x in which the depth of liquefaction is read");
+  v.table(
+      "windows", c.windows,
+      "ranges of x in which the depth of liquefaction is read; left out: one, `all`, that holds "
+      "the whole liquefiable soil");
   v.choice("depth_coordinates", c.depth_coordinates, kDepthCoordinates,
            "depth of a node where it was, or where it is");
   v.group("r_u", c.r_u, "excess pore-pressure ratio");
@@ -97,6 +101,11 @@ void check_points(std::string_view key, const std::vector<std::vector<double>>& 
 }
 
 }  // namespace
+
+DepthWindows windows_or_all(const TransferRuleConfig& c) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  return c.windows.empty() ? DepthWindows{{"all", {-far, far}}} : c.windows;
+}
 
 void check(const TransferRuleConfig& c) {
   validate(!c.liquefiable.empty(),

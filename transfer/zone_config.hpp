@@ -50,13 +50,16 @@ struct TransferRuleConfig {
   std::vector<int> liquefiable;  ///< material tags
   double pond_surface = kUnset;  ///< y of the pond surface, datum of depths [m]
   ZoneBox box;
-  DepthWindows windows{{"crest", {-40.0, -20.0}}, {"pond", {-70.0, -50.0}}};
+  DepthWindows windows;  ///< see windows_or_all
   DepthCoordinates depth_coordinates = DepthCoordinates::original;
   RuConfig r_u;
   std::vector<std::vector<double>> densities;  ///< rows [material tag, kg/m3]
   std::vector<int> base_nodes;                 ///< node tags; the lowest nodes if empty
   TransferTimeConfig transfer;
 };
+
+/// The windows; without any, one named "all" that holds every x.
+DepthWindows windows_or_all(const TransferRuleConfig& config);
 
 struct ZoneConfig : TransferRuleConfig {
   ZoneExtent zone = ZoneExtent::automatic;

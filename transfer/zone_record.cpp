@@ -63,7 +63,7 @@ ZoneParts divide(const QuadMesh& mesh, const TransferRuleConfig& config) {
 
 void check_windows(const QuadMesh& mesh, const ZoneParts& parts, const DepthWindows& windows) {
   for (const auto& [name, window] : windows) {
-    const bool found = std::ranges::any_of(parts.soil, [&mesh, &window](std::int32_t e) {
+    const bool found = std::ranges::any_of(parts.soil, [&mesh, &window = window](std::int32_t e) {
       return std::ranges::any_of(mesh.elements[static_cast<std::size_t>(e)], [&](std::int32_t n) {
         return window.contains(mesh.nodes[static_cast<std::size_t>(n)][0]);
       });
@@ -86,10 +86,17 @@ std::map<std::int32_t, double> density_of_material(const TransferRuleConfig& con
 
 }  // namespace
 
+ZoneParts zone_parts(const QuadMesh& mesh, const TransferRuleConfig& config, bool shaken) {
+  ZoneParts parts = divide(mesh, config);
+  check_windows(mesh, parts, config.windows);
+  if (shaken) (void)element_masses(mesh, parts.section, density_of_material(config));
+  return parts;
+}
+
 ZoneRecorder::ZoneRecorder(const QuadMesh& mesh, const FemFrame& gravity,
                            const TransferRuleConfig& config)
-    : mesh_(mesh), config_(config), parts_(divide(mesh, config)) {
-  check_windows(mesh_, parts_, config_.windows);
+    : mesh_(mesh), config_(config), parts_(zone_parts(mesh, config)) {
+  config_.windows = windows_or_all(config);
   reference_ = r_u_reference(mesh_, gravity, parts_.in_soil, config_.r_u);
   for (const auto& [name, window] : config_.windows) history_.window_names.push_back(name);
   history_.depth.resize(history_.window_names.size());

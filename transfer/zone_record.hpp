@@ -18,6 +18,10 @@ struct ZoneParts {
   std::vector<std::int32_t> base_nodes;
 };
 
+/// Throws InputError for settings that do not fit the mesh: tags, box, windows, base nodes and, if
+/// there is shaking, materials without a density.
+ZoneParts zone_parts(const QuadMesh& mesh, const TransferRuleConfig& config, bool shaken = false);
+
 /// Makes the scalars of ZoneHistory from frames as they come, so that the rule of the transfer time
 /// can be asked while a record grows (docs/theory/liquefaction-zone.md).
 class ZoneRecorder {

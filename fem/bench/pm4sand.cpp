@@ -1,4 +1,5 @@
 #include "constitutive/pm4sand.hpp"
+#include "core/elementary.hpp"
 
 #include "fem/bench/speed.hpp"
 
@@ -43,7 +44,7 @@ Points consolidated(double increment, double tolerance) {
 /// Shear strain at constant volume: cycles from 2e-4 up to 2 %, the soil liquefies on the way.
 double shear_strain(int call) {
   const double cycles = static_cast<double>(call) / kCallsPerCycle;
-  return 2e-4 * std::pow(100.0, cycles / kCycles) * std::sin(2.0 * kPi * cycles);
+  return 2e-4 * pow(100.0, cycles / kCycles) * sin(2.0 * kPi * cycles);
 }
 
 struct Outcome {

@@ -1,3 +1,4 @@
+#include "core/elementary.hpp"
 #include "fem/bench/speed.hpp"
 #include "fem/verify/scene.hpp"
 
@@ -14,7 +15,7 @@ constexpr double kFrequency = 2.0;       ///< of the base [Hz]
 constexpr double kVelocity = 0.25;       ///< of the base [m/s]: 0.32 g
 constexpr double kUntilLiquefied = 3.0;  ///< time of shaking before the second measurement [s]
 
-double ground(double t) { return kVelocity * std::sin(2.0 * kPi * kFrequency * t); }
+double ground(double t) { return kVelocity * sin(2.0 * kPi * kFrequency * t); }
 
 void step(Solver& s) { advance(s, {ground(s.state.time), ground(s.state.time + s.dt)}); }
 

@@ -1,3 +1,4 @@
+#include "core/elementary.hpp"
 #include "fem/verify/list.hpp"
 #include "fem/verify/scene.hpp"
 
@@ -22,7 +23,7 @@ FemMaterialConfig nevada_sand() {
   const double blow_count = 46.0 * p.Dr * p.Dr;
   p.G0 = 167.0 * std::sqrt(blow_count + 2.5);
   p.hpo = 0.50;  // between those of the manual for 35 and 55 %
-  m.pm4sand = p;
+  m.laws.of<PM4Sand>() = p;
   m.void_ratio = p.emax - p.Dr * (p.emax - p.emin);
   m.density = (2.67 + m.void_ratio) / (1.0 + m.void_ratio) * kWater;
   m.permeability = {50.0 * 6.6e-5, 50.0 * 6.6e-5};  // water at 50 g
@@ -33,7 +34,7 @@ FemMaterialConfig nevada_sand() {
 double ground(double amplitude, double t) {
   const double cycles = kFrequency * t, w = 2.0 * kPi * kFrequency;
   const double envelope = std::clamp(0.5 * std::min(cycles, kCycles - cycles), 0.0, 1.0);
-  return envelope * amplitude * kGravity / w * std::sin(w * t);
+  return envelope * amplitude * kGravity / w * sin(w * t);
 }
 
 struct Outcome {
@@ -53,7 +54,7 @@ Outcome shake(double amplitude, double slope) {
   const double buoyant = 1.0 - kWater / c.materials["soil"].density;
   const std::vector<double> weight = make_solver(model, {}).layout.weight;
   for (std::size_t i = 0; i < model.mesh.num_nodes(); i += 2)
-    model.load[model.dof[i][0]] -= buoyant * weight[model.dof[i][1]] * std::sin(slope);
+    model.load[model.dof[i][0]] -= buoyant * weight[model.dof[i][1]] * sin(slope);
   Solver s = at_rest(model, c);
   const std::vector<double> still = s.state.pressure;
   const double effective = (c.materials["soil"].density - kWater) * kGravity;
@@ -67,7 +68,7 @@ Outcome shake(double amplitude, double slope) {
     if (s.state.step % 16 == 0) refresh_moduli(s);
     if (!is_set(at_end) && s.state.time > kCycles / kFrequency + 1.0) {
       at_end = shift();
-      for (PM4Sand::Constants& law : s.laws.pm4sand) law.post_shake = true;
+      for (PM4Sand::Constants& law : std::get<fem::LawConstants<PM4Sand>>(s.laws).of) law.post_shake = true;
     }
     advance(s, {ground(amplitude, s.state.time), ground(amplitude, s.state.time + s.dt)});
     for (std::size_t k = 0; k < kDepths.size(); ++k) {

@@ -1,3 +1,4 @@
+#include "core/elementary.hpp"
 #include "fem/verify/list.hpp"
 #include "fem/verify/scene.hpp"
 
@@ -45,9 +46,9 @@ constexpr double kShare = 1.0 / (1.0 + kModulus * (0.8 / 1.8) / 2.2e9);
 Consolidation terzaghi(double T) {
   double U = 0.0, p = 0.0;
   for (int m = 0; m < 400; ++m) {
-    const double M = 0.5 * kPi * (2 * m + 1), decay = std::exp(-M * M * T);
+    const double M = 0.5 * kPi * (2 * m + 1), decay = exp(-M * M * T);
     U += 2.0 / (M * M) * decay;
-    p += 2.0 / M * std::sin(M) * decay;
+    p += 2.0 / M * sin(M) * decay;
   }
   return {1.0 - kShare + kShare * (1.0 - U), kShare * p};
 }
@@ -127,7 +128,7 @@ struct Mandel {
     double low = (i + 1e-9) * kPi, high = (i + 0.5) * kPi - 1e-12;
     for (int step = 0; step < 200; ++step) {
       const double mid = 0.5 * (low + high);
-      (std::tan(mid) < k * mid ? low : high) = mid;
+      (tan(mid) < k * mid ? low : high) = mid;
     }
     return 0.5 * (low + high);
   }
@@ -136,8 +137,8 @@ struct Mandel {
     double sum = 0.0;
     for (int i = 0; i < 100; ++i) {
       const double r = root(i);
-      sum += std::sin(r) / (r - std::sin(r) * std::cos(r)) * (std::cos(r * x) - std::cos(r)) *
-             std::exp(-r * r * T);
+      sum += sin(r) / (r - sin(r) * cos(r)) * (cos(r * x) - cos(r)) *
+             exp(-r * r * T);
     }
     return 2.0 * sum;
   }

@@ -1,3 +1,4 @@
+#include "core/elementary.hpp"
 #include "fem/verify/list.hpp"
 #include "fem/verify/scene.hpp"
 
@@ -38,7 +39,7 @@ struct Cylinder {
     double sum = 0.0;
     for (const double a : roots)
       sum += 2.0 * (std::cyl_bessel_j(0, a * r) - std::cyl_bessel_j(0, a)) /
-             (std::cyl_bessel_j(1, a) * (a - 4.0 * eta * (1.0 - eta) / a)) * std::exp(-a * a * T);
+             (std::cyl_bessel_j(1, a) * (a - 4.0 * eta * (1.0 - eta) / a)) * exp(-a * a * T);
     return sum;
   }
   [[nodiscard]] double peak() const {
@@ -79,8 +80,8 @@ QuadMesh quarter_disc(int n) {
   const auto fan = [&](const Vec2& from, const Vec2& to, double angle) {
     block([&, angle](double s, double t) -> Vec2 {
       const double w = angle + 0.25 * kPi * t;
-      return {(1.0 - s) * (from[0] + t * (to[0] - from[0])) + s * kRadius * std::cos(w),
-              (1.0 - s) * (from[1] + t * (to[1] - from[1])) + s * kRadius * std::sin(w)};
+      return {(1.0 - s) * (from[0] + t * (to[0] - from[0])) + s * kRadius * cos(w),
+              (1.0 - s) * (from[1] + t * (to[1] - from[1])) + s * kRadius * sin(w)};
     });
   };
   fan({side, 0.0}, {corner, corner}, 0.0);
@@ -88,14 +89,14 @@ QuadMesh quarter_disc(int n) {
   return m;
 }
 
-bool on_rim(const Vec2& p) { return std::hypot(p[0], p[1]) > kRadius * (1.0 - 1e-9); }
+bool on_rim(const Vec2& p) { return hypot(p[0], p[1]) > kRadius * (1.0 - 1e-9); }
 
 Solver disc(int n, double poisson) {
   const FemMaterialConfig c = elastic_soil(kYoung, poisson);
   Model m;
   m.mesh = quarter_disc(n);
   m.materials = {{"soil",
-                  *c.linear_elastic,
+                  flowslide::Material<LinearElastic>{*c.laws.of<LinearElastic>()},
                   100.0,  // inertia only matters while the load comes
                   c.void_ratio / (1.0 + c.void_ratio),
                   {kPermeability, kPermeability},

@@ -11,10 +11,10 @@ namespace {
 
 PointConfig test_of(double Dr, double G0, double hpo, double vertical) {
   PointConfig c;
-  c.material.pm4sand = PM4Sand::Params{};
-  c.material.pm4sand->Dr = Dr;
-  c.material.pm4sand->G0 = G0;
-  c.material.pm4sand->hpo = hpo;
+  c.material.laws.of<PM4Sand>() = PM4Sand::Params{};
+  c.material.laws.of<PM4Sand>()->Dr = Dr;
+  c.material.laws.of<PM4Sand>()->G0 = G0;
+  c.material.laws.of<PM4Sand>()->hpo = hpo;
   c.stress.vertical = vertical;
   c.stress.compacts = true;
   c.simple_shear.emplace();
@@ -69,8 +69,8 @@ std::vector<Check> verify_undrained_strength(std::string_view name) {
       {{50e3, 4.38e3}, {100e3, 6.30e3}, {250e3, 11.64e3}}};
   for (const auto& [vertical, strength] : tests) {
     PointConfig c = test_of(0.35, 476.0, 2.70, vertical);
-    c.material.pm4sand->Q = 11.998;
-    c.material.pm4sand->R = 3.75;
+    c.material.laws.of<PM4Sand>()->Q = 11.998;
+    c.material.laws.of<PM4Sand>()->R = 3.75;
     checks.near(fmt::format("tau_{:.0f}_kpa", 1e-3 * vertical), stress_at_10_percent(c), strength,
                 0.02 * strength, "Pa");
   }

@@ -1,3 +1,4 @@
+#include "core/elementary.hpp"
 #include "fem/implicit.hpp"
 
 #include "fem/verify/dense_assembly.hpp"
@@ -28,7 +29,7 @@ struct History {
 constexpr double kEnd = 2.0, kHeight = 10.0;
 constexpr int kRows = 10;
 
-double ground(double t) { return 0.08 * std::sin(2.0 * kPi * 1.5 * t); }
+double ground(double t) { return 0.08 * sin(2.0 * kPi * 1.5 * t); }
 
 Solver column() {
   FemConfig c = config(sand(), kHeight);
@@ -118,7 +119,7 @@ History shake_implicitly(double dt, double theta) {
         energy.base += dt * (inertia[k] + push[k] + lost - weight[k]) * middle[k];
     }
     s.state.stress = trial.stress;
-    s.state.pm4sand = trial.sand;
+    std::get<fem::LawStates<PM4Sand>>(s.state.laws).of = trial.sand;
     for (std::size_t e = 0; e < s.state.hourglass_x.size(); ++e)
       for (int i = 0; i < 4; ++i) {
         const double gamma = s.layout.elements.gamma[i][e];
@@ -159,7 +160,7 @@ double difference(const History& a, const History& b) {
   double sum = 0.0, largest = 0.0;
   int count = 0;
   for (double t = 0.02; t < kEnd - 0.02; t += 0.002, ++count) {
-    sum += std::pow(a.at(t) - b.at(t), 2);
+    sum += pow(a.at(t) - b.at(t), 2);
     largest = std::max(largest, std::abs(b.at(t)));
   }
   return std::sqrt(sum / count) / largest;

@@ -1,3 +1,4 @@
+#include "core/elementary.hpp"
 #include "fem/implicit.hpp"
 #include "fem/verify/list.hpp"
 #include "fem/verify/scene.hpp"
@@ -10,10 +11,12 @@
 namespace flowslide::fem {
 namespace {
 
-constexpr double kEnd = 3.0, kSample = 0.02, kThreshold = 0.7, kStiffness = 476.0;
+// Shortly after the sand has liquefied. While it flows on, a change of 1e-15 in the motion grows to
+// some hundredths of the pore pressure within 3 s.
+constexpr double kEnd = 1.0, kSample = 0.02, kThreshold = 0.7, kStiffness = 476.0;
 
 double ground(double t) {
-  return 0.25 * std::min(1.0, t) * std::sin(2.0 * kPi * 1.5 * t);  // up to 0.24 g
+  return 0.4 * std::min(1.0, t) * sin(2.0 * kPi * 1.5 * t);  // up to 0.38 g
 }
 
 Solver slope(double G0) {
@@ -103,7 +106,7 @@ History shake_implicitly(const ImplicitSettings& settings) {
 double difference(const History& a, const History& b) {
   double sum = 0.0, largest = 0.0;
   for (std::size_t i = 0; i < b.crest.size(); ++i) {
-    sum += std::pow(a.crest[i] - b.crest[i], 2);
+    sum += pow(a.crest[i] - b.crest[i], 2);
     largest = std::max(largest, std::abs(b.crest[i]));
   }
   return std::sqrt(sum / static_cast<double>(b.crest.size())) / largest;
@@ -117,8 +120,7 @@ std::vector<Check> verify_implicit_slope(std::string_view name) {
   const History implicit = shake_implicitly({.step = 5e-3});
   checks.at_least("r_u", direct.r_u, 0.3);
   checks.at_most("liquefied_at", direct.liquefied, 0.8 * kEnd, "s");
-  // Sand that liquefies follows small causes: explicit steps a quarter as long are another answer,
-  // and the implicit one is not farther away.
+  // Explicit steps a quarter as long are another answer, and the implicit one is about as far away.
   checks.error("crest", difference(implicit, direct), 0.02);
   checks.error("crest_explicit_quarter", difference(shorter, direct), 0.02);
   checks.near("r_u_implicit", implicit.r_u, direct.r_u, 0.04);

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/elementary.hpp"
 #include "fem/build_model.hpp"
 #include "fem/gravity.hpp"
 #include "fem/run.hpp"
@@ -23,8 +24,8 @@ inline SectionMesh section(const Rectangle& r) {
     for (int i = 0; i <= r.columns; ++i) {
       const bool inner = i > 0 && i < r.columns && j > 0 && j < r.rows;
       const double shift = inner ? r.distortion : 0.0;
-      s.mesh.nodes.push_back({(i + shift * std::sin(3.0 * i + 5.0 * j)) * dx,
-                              (j + shift * std::cos(4.0 * i + 2.0 * j)) * dy});
+      s.mesh.nodes.push_back({(i + shift * sin(3.0 * i + 5.0 * j)) * dx,
+                              (j + shift * cos(4.0 * i + 2.0 * j)) * dy});
       s.mesh.node_tags.push_back(1 + j * nx + i);
     }
   for (int j = 0; j < r.rows; ++j)
@@ -58,7 +59,7 @@ inline FemMaterialConfig soil() {
 
 inline FemMaterialConfig elastic_soil(double young = 50e6, double poisson = 0.3) {
   FemMaterialConfig m = soil();
-  m.linear_elastic = LinearElastic::Params{young, poisson};
+  m.laws.of<LinearElastic>() = LinearElastic::Params{young, poisson};
   m.k0 = poisson / (1.0 - poisson);
   return m;
 }
@@ -69,7 +70,7 @@ inline FemMaterialConfig sand(double Dr = 0.35, double G0 = 476.0, double hpo = 
   p.Dr = Dr;
   p.G0 = G0;
   p.hpo = hpo;
-  m.pm4sand = p;
+  m.laws.of<PM4Sand>() = p;
   return m;
 }
 

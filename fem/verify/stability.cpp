@@ -1,3 +1,4 @@
+#include "core/elementary.hpp"
 #include "core/temporary_folder.hpp"
 #include "fem/verify/list.hpp"
 #include "fem/verify/scene.hpp"
@@ -85,13 +86,13 @@ double tip_ratio(const Cantilever& beam) {
   constexpr double kYoung = 10e6;
   FemMaterialConfig m = elastic_soil(kYoung, beam.poisson);
   if (beam.cohesion) {
-    m.linear_elastic.reset();
-    m.mohr_coulomb.emplace();
-    m.mohr_coulomb->youngs_modulus = kYoung;
-    m.mohr_coulomb->poisson_ratio = beam.poisson;
-    m.mohr_coulomb->cohesion = *beam.cohesion;
-    m.mohr_coulomb->friction_angle = 0.0;
-    m.mohr_coulomb->tension_cutoff = 100.0 * *beam.cohesion;
+    m.laws.of<LinearElastic>().reset();
+    m.laws.of<MohrCoulomb>().emplace();
+    m.laws.of<MohrCoulomb>()->youngs_modulus = kYoung;
+    m.laws.of<MohrCoulomb>()->poisson_ratio = beam.poisson;
+    m.laws.of<MohrCoulomb>()->cohesion = *beam.cohesion;
+    m.laws.of<MohrCoulomb>()->friction_angle = 0.0;
+    m.laws.of<MohrCoulomb>()->tension_cutoff = 100.0 * *beam.cohesion;
   }
   m.density = kBeamDensity;
   FemConfig c = config(m, 0.0);
@@ -122,7 +123,7 @@ double tip_ratio(const Cantilever& beam) {
   s.dt = 0.9 * stable_step({soil_frequency(s), 0.0}, 0.0);
   while (s.state.time < beam.duration / omega) advance(s, {});
   const double weight = kBeamDensity * 9.81 * kBeamDepth;
-  const double bending = weight * std::pow(kBeamLength, 4) / (8.0 * plane * kBeamDepth / 12.0);
+  const double bending = weight * pow(kBeamLength, 4) / (8.0 * plane * kBeamDepth / 12.0);
   const double shear =
       weight * kBeamLength * kBeamLength / (2.0 * 5.0 / 6.0 * s.shear[0] * kBeamDepth);
   return -s.state.displacement[model.dof[columns][1]] / (bending + shear);
@@ -202,12 +203,12 @@ struct Shaken {
 /// A column of loose sand, before it liquefies.
 Shaken shaken_column(double courant, double increment) {
   FemMaterialConfig m = sand();
-  m.pm4sand->max_strain_increment = increment;
-  if (increment < 1e-5) m.pm4sand->tolerance = 1e-6;
+  m.laws.of<PM4Sand>()->max_strain_increment = increment;
+  if (increment < 1e-5) m.laws.of<PM4Sand>()->tolerance = 1e-6;
   FemConfig c = config(m, 10.0);
   c.damping.stiffness = 1e-3;
   Solver s = at_rest(section({.columns = 1, .rows = 10, .width = 2.0, .height = 10.0}), c, courant);
-  const auto ground = [](double t) { return 0.08 * std::sin(2.0 * kPi * 1.5 * t); };
+  const auto ground = [](double t) { return 0.08 * sin(2.0 * kPi * 1.5 * t); };
   const std::int32_t top = s.model.dof.back()[0];
   Shaken r;
   while (s.state.time < 2.0) {
@@ -259,7 +260,7 @@ Outcome hostile(std::mt19937& random) {
     return a + (b - a) * static_cast<double>(random()) / 4294967296.0;
   };
   const auto log_uniform = [&](double a, double b) {
-    return std::exp(uniform(std::log(a), std::log(b)));
+    return exp(uniform(log(a), log(b)));
   };
   const double height = log_uniform(0.5, 30.0);
   SectionMesh mesh = section({.columns = 4,
@@ -270,19 +271,19 @@ Outcome hostile(std::mt19937& random) {
   const double steep = uniform(0.0, 0.9), width = mesh.mesh.nodes[4][0];
   for (Vec2& x : mesh.mesh.nodes) x[1] *= 1.0 - steep * x[0] / width;
   FemMaterialConfig m = sand(uniform(0.2, 0.9), uniform(100.0, 1200.0), log_uniform(0.02, 5.0));
-  m.pm4sand->max_strain_increment = 1e-3;
-  m.pm4sand->tolerance = 1e-2;
+  m.laws.of<PM4Sand>()->max_strain_increment = 1e-3;
+  m.laws.of<PM4Sand>()->tolerance = 1e-2;
   m.permeability = {log_uniform(1e-14, 1.0), log_uniform(1e-14, 1.0)};
   m.void_ratio = uniform(0.3, 2.0);
   m.density = uniform(1100.0, 2400.0);
   m.k0 = uniform(0.2, 0.95);
   if (random() % 5 == 0) {
-    m.pm4sand.reset();
-    m.mohr_coulomb.emplace();
-    m.mohr_coulomb->youngs_modulus = log_uniform(1e5, 1e9);
-    m.mohr_coulomb->poisson_ratio = 0.3;
-    m.mohr_coulomb->cohesion = log_uniform(1.0, 1e5);
-    m.mohr_coulomb->friction_angle = uniform(0.0, 0.8);
+    m.laws.of<PM4Sand>().reset();
+    m.laws.of<MohrCoulomb>().emplace();
+    m.laws.of<MohrCoulomb>()->youngs_modulus = log_uniform(1e5, 1e9);
+    m.laws.of<MohrCoulomb>()->poisson_ratio = 0.3;
+    m.laws.of<MohrCoulomb>()->cohesion = log_uniform(1.0, 1e5);
+    m.laws.of<MohrCoulomb>()->friction_angle = uniform(0.0, 0.8);
   }
   FemConfig c = config(m, height * uniform(-0.2, 1.5));
   c.sides.kind = SideKind::fixed;
@@ -297,7 +298,7 @@ Outcome hostile(std::mt19937& random) {
     c.output_interval = 0.5 * *c.end;
     GroundMotion motion{.dt = 0.01 * *c.end, .acceleration = {}, .origin = "sine"};
     for (int i = 0; i <= 100; ++i)
-      motion.acceleration.push_back(amplitude * std::sin(w * motion.dt * i));
+      motion.acceleration.push_back(amplitude * sin(w * motion.dt * i));
     run_fem(mesh, motion, c, paths, 1, {});
     return finite(FemHistory(paths.history)) ? Outcome::finished : Outcome::bad;
   } catch (const Error& e) {

@@ -1,3 +1,4 @@
+#include "core/elementary.hpp"
 #include "fem/verify/list.hpp"
 #include "fem/verify/scene.hpp"
 
@@ -17,11 +18,11 @@ class Fourier {
  public:
   explicit Fourier(double omega) : omega_(omega) {}
   void add(double time, double value, double dt) {
-    sine_ += value * std::sin(omega_ * time) * dt;
-    cosine_ += value * std::cos(omega_ * time) * dt;
+    sine_ += value * sin(omega_ * time) * dt;
+    cosine_ += value * cos(omega_ * time) * dt;
     duration_ += dt;
   }
-  [[nodiscard]] double amplitude() const { return 2.0 * std::hypot(sine_, cosine_) / duration_; }
+  [[nodiscard]] double amplitude() const { return 2.0 * hypot(sine_, cosine_) / duration_; }
 
  private:
   double omega_, sine_ = 0.0, cosine_ = 0.0, duration_ = 0.0;
@@ -30,7 +31,7 @@ class Fourier {
 /// A sine that starts smoothly over `rise`.
 double gentle(double omega, double time, double rise) {
   const double x = std::min(1.0, time / rise);
-  return x * x * (3.0 - 2.0 * x) * std::sin(omega * time);
+  return x * x * (3.0 - 2.0 * x) * sin(omega * time);
 }
 
 }  // namespace
@@ -65,17 +66,17 @@ Response exact_column(const Soil& m, double w) {
   const auto pressure = [&](Complex x) { return (m.modulus * x * x + m.density * w * w) / x; };
   for (int j = 0; j < 4; ++j) {
     // the factor keeps exp(s H) of growing modes in range
-    const Complex scale = std::exp(-std::max(0.0, s[j].real()) * kHeight);
+    const Complex scale = exp(-std::max(0.0, s[j].real()) * kHeight);
     A(0, j) = scale;
     A(1, j) = scale * s[j] * pressure(s[j]);
-    A(2, j) = scale * pressure(s[j]) * std::exp(s[j] * kHeight);
-    A(3, j) = scale * m.modulus * s[j] * std::exp(s[j] * kHeight);
+    A(2, j) = scale * pressure(s[j]) * exp(s[j] * kHeight);
+    A(3, j) = scale * m.modulus * s[j] * exp(s[j] * kHeight);
   }
   const Eigen::Vector4cd x = A.fullPivLu().solve(rhs);
   Complex top = 0.0, base = 0.0;
   for (int j = 0; j < 4; ++j) {
-    const Complex scale = std::exp(-std::max(0.0, s[j].real()) * kHeight);
-    top += x[j] * scale * std::exp(s[j] * kHeight);
+    const Complex scale = exp(-std::max(0.0, s[j].real()) * kHeight);
+    top += x[j] * scale * exp(s[j] * kHeight);
     base += x[j] * scale * pressure(s[j]);
   }
   return {std::abs(top), std::abs(base)};
@@ -178,7 +179,7 @@ std::vector<Check> verify_site_response(std::string_view name) {
     const Complex velocity = kShearVelocity * std::sqrt(softened);
     const Complex angle = w * kLayer / velocity;
     const Complex impedance = kDensity * velocity / (kRockDensity * kRockVelocity);
-    const double exact = 1.0 / std::abs(std::cos(angle) + kI * impedance * std::sin(angle));
+    const double exact = 1.0 / std::abs(cos(angle) + kI * impedance * sin(angle));
     checks.near(fmt::format("amplification_at_{:g}_f1", ratio), surface.amplitude() / exact, 1.0,
                 0.02);
   }
@@ -192,7 +193,7 @@ std::vector<Check> verify_reflection(std::string_view name) {
     const double width = 0.05, centre = 0.2, transit = kLayer / kShearVelocity;
     const auto pulse = [&](double t) {
       const double x = (t - centre) / width;
-      return t < 2.0 * centre ? (1.0 - 2.0 * x * x) * std::exp(-x * x) : 0.0;
+      return t < 2.0 * centre ? (1.0 - 2.0 * x * x) * exp(-x * x) : 0.0;
     };
     double peak = 0.0, left = 0.0;
     const double clear = 2.0 * centre + 2.5 * transit;

@@ -1,5 +1,6 @@
 #include "mpm/bench/column.hpp"
 
+#include "core/elementary.hpp"
 #include "mpm/basis.hpp"
 #include "mpm/local_grid.hpp"
 
@@ -66,7 +67,7 @@ Simulation<Dim> bench_column(int points_per_side, BasisKind basis, BenchLaw law)
     const double vertical = -kDensity * kGravity * (height - p.position[q][Dim - 1]);
     p.stress[q] = {0.35 * vertical, 0.35 * vertical, 0.35 * vertical, 0.0, 0.0, 0.0};
     p.stress[q][Dim - 1] = vertical;
-    p.volume[q] = std::pow(kSpacing, Dim);
+    p.volume[q] = pow(kSpacing, Dim);
     p.mass[q] = kDensity * p.volume[q];
     p.material[q] = 0;
     p.id[q] = static_cast<std::int64_t>(q) + 1;

@@ -1,4 +1,5 @@
 #include "core/conventions.hpp"
+#include "core/elementary.hpp"
 #include "mpm/bench/bandwidth.hpp"
 #include "mpm/bench/speed.hpp"
 #include "mpm/load.hpp"
@@ -29,7 +30,7 @@ ParticleSet bar(double spacing) {
   for (std::size_t q = 0; q < p.size(); ++q) {
     p.position[q] = {(double(q % nx) + 0.5) * spacing, (double(q / nx) + 0.5) * spacing, 0.0};
     p.velocity[q] = {
-        Bar::across[0] + Bar::amplitude * std::cos(kPi * p.position[q][0] / Bar::length),
+        Bar::across[0] + Bar::amplitude * cos(kPi * p.position[q][0] / Bar::length),
         Bar::across[1], 0.0};
     p.volume[q] = spacing * spacing;
     p.mass[q] = Bar::density * p.volume[q];

@@ -51,6 +51,8 @@ std::vector<VerificationCase> mpm_cases() {
       {"mpm/hard_locking", "bending of soil that keeps its volume", false, verify_locking},
       {"mpm/hard_leaving", "points that leave by an outlet, fly apart, or leave the grid", true,
        verify_leaving},
+      {"mpm/extremes", "settings at random over twenty decades: every run ends by itself", false,
+       verify_extremes},
       {"mpm/return_maps", "a million random states through every law", false, verify_return_maps},
   };
 }

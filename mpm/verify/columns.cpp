@@ -1,3 +1,4 @@
+#include "core/elementary.hpp"
 #include "mpm/verify/list.hpp"
 #include "mpm/verify/trial.hpp"
 
@@ -126,8 +127,8 @@ Slump aluminium_bars(bool rate, double h) {
   std::map<std::string, double> values{{"youngs_modulus", 3.0 * bulk * (1.0 - 2.0 * nu)},
                                        {"poisson_ratio", nu}};
   if (rate)
-    values.merge(std::map<std::string, double>{{"mu_static", std::sin(phi)},
-                                               {"mu_limit", std::sin(phi) + 0.26},
+    values.merge(std::map<std::string, double>{{"mu_static", sin(phi)},
+                                               {"mu_limit", sin(phi) + 0.26},
                                                {"inertial_number", 0.279},
                                                {"grain_size", 0.00125},
                                                {"grain_density", density}});
@@ -150,7 +151,7 @@ Slump aluminium_bars(bool rate, double h) {
                                                            {0.42, 0.0022}}};
   double sum = 0.0;
   for (const auto& [x, y] : profile)
-    sum += std::pow(surface(trial.sim.points, std::max(x, 0.5 * h), h) - y, 2);
+    sum += pow(surface(trial.sim.points, std::max(x, 0.5 * h), h) - y, 2);
   return {end_of_layer(trial.sim.points, density, bar), std::sqrt(sum / profile.size()) / height,
           trial.balances().energy_error};
 }

@@ -1,5 +1,6 @@
 #include "mpm/verify/dam.hpp"
 
+#include "core/elementary.hpp"
 #include "mpm/verify/trial.hpp"
 
 #include <cmath>
@@ -77,7 +78,7 @@ ParticleSet dam_points(const DamScene& scene) {
           p.position[q] = {x, (j + 0.5) * d, z};
           p.stress[q] = {lateral, lateral, vertical, 0.0, 0.0, 0.0};
         }
-        p.volume[q] = std::pow(d, p.dim);
+        p.volume[q] = pow(d, p.dim);
         p.mass[q] = density[kind] * p.volume[q];
         p.material[q] = kind;
         p.id[q] = static_cast<std::int64_t>(q) + 1;

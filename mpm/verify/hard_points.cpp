@@ -1,3 +1,4 @@
+#include "core/elementary.hpp"
 #include "mpm/verify/list.hpp"
 #include "mpm/verify/periodic.hpp"
 
@@ -28,7 +29,7 @@ double crossing_noise(BasisKind basis, double points) {
   strip.run_to(10.0 * h);
   double sum = 0.0;
   const Points<2>& q = strip.trial.sim.points;
-  strip.for_each([&](std::size_t i) { sum += std::pow(q.sigma[0][i] / stress - 1.0, 2); });
+  strip.for_each([&](std::size_t i) { sum += pow(q.sigma[0][i] / stress - 1.0, 2); });
   return std::sqrt(sum / static_cast<double>(p.size()));
 }
 
@@ -63,7 +64,7 @@ Ringing ring(Transfer transfer, int steps) {
   }
   const double beta = kPi / 16.0;
   for (std::size_t i = 0; i < p.size(); ++i)
-    p.velocity[i] = {0.01 * std::sin(beta * p.position[i][0]), 0.0, 0.0};
+    p.velocity[i] = {0.01 * sin(beta * p.position[i][0]), 0.0, 0.0};
   Trial trial(p, config);
   const PointSums<2> start = sum_points(trial.sim);
   double largest = 0.0;

@@ -1,3 +1,4 @@
+#include "core/elementary.hpp"
 #include "mpm/verify/list.hpp"
 #include "mpm/verify/trial.hpp"
 
@@ -91,7 +92,7 @@ Collapse collapse(double strength, VolumeAverage average) {
   for (std::size_t i = 0; i < q.size(); ++i) {
     front = std::max(front, q.x[0][i]);
     const auto at = static_cast<std::size_t>(q.index[i]);
-    scatter += std::pow(q.volume[i] / p.volume[at] - 1.0, 2) / static_cast<double>(q.size());
+    scatter += pow(q.volume[i] / p.volume[at] - 1.0, 2) / static_cast<double>(q.size());
   }
   return {volume_of(trial) / start - 1.0,
           (front - 1.0) / trial.sim.time / (2.0 * std::sqrt(kGravity * height)),

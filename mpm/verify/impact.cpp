@@ -1,3 +1,4 @@
+#include "core/elementary.hpp"
 #include "mpm/verify/list.hpp"
 #include "mpm/verify/trial.hpp"
 
@@ -21,7 +22,7 @@ Rebound collide(Transfer transfer) {
   for (const double centre : {0.25, 0.75}) {
     const std::size_t first = p.size();
     fill(p, {centre - radius, centre - radius, centre + radius, centre + radius}, 0.5 * h, density,
-         0, [&](double x, double y) { return std::hypot(x - centre, y - centre) < radius; });
+         0, [&](double x, double y) { return hypot(x - centre, y - centre) < radius; });
     const double v = centre < 0.5 ? speed : -speed;
     for (std::size_t q = first; q < p.size(); ++q) p.velocity[q] = {v, v, 0.0};
   }

@@ -1,3 +1,4 @@
+#include "core/elementary.hpp"
 #include "mpm/verify/list.hpp"
 #include "mpm/verify/trial.hpp"
 
@@ -19,15 +20,15 @@ struct Slide {
 /// mass of the ground: it gains about mu g cos(a) t_s / 2, t_s = H / c_s.
 /// `turn` is the angle of the ground to the grid [rad]; the ground falls to the right.
 Slide slide(double turn, double mu) {
-  const std::array<double, 2> along{std::cos(turn), -std::sin(turn)};
-  const std::array<double, 2> normal{std::sin(turn), std::cos(turn)};
+  const std::array<double, 2> along{cos(turn), -sin(turn)};
+  const std::array<double, 2> normal{sin(turn), cos(turn)};
   ParticleSet p;
   p.materials = {elastic(200e6, 0.2)};
   fill(p, {-0.5 * kLength, 0.0, 0.5 * kLength, kHeight}, 0.5 * kCell, kDensity);
   for (std::size_t q = 0; q < p.size(); ++q) {
     const double s = p.position[q][0], n = p.position[q][1];
     p.position[q] = {s * along[0] + n * normal[0], s * along[1] + n * normal[1], 0.0};
-    const double stress = -kDensity * kGravity * std::cos(kSlope) * (kHeight - n);
+    const double stress = -kDensity * kGravity * cos(kSlope) * (kHeight - n);
     p.stress[q] = {stress * normal[0] * normal[0],
                    stress * normal[1] * normal[1],
                    0.0,
@@ -37,12 +38,12 @@ Slide slide(double turn, double mu) {
   }
   FlowConfig config = free_space(kCell);
   const double reach = 20.0;
-  config.ground.surface = {{-reach, reach * std::tan(turn)}, {reach, -reach * std::tan(turn)}};
+  config.ground.surface = {{-reach, reach * tan(turn)}, {reach, -reach * tan(turn)}};
   config.ground.friction = mu;
   Trial trial(p, config);
   for (int d = 0; d < 2; ++d)
     trial.sim.settings.gravity[d] =
-        kGravity * (std::sin(kSlope) * along[d] - std::cos(kSlope) * normal[d]);
+        kGravity * (sin(kSlope) * along[d] - cos(kSlope) * normal[d]);
   const auto centre = [&] {
     std::array<double, 2> sum{};
     const Points<2>& q = trial.sim.points;
@@ -55,7 +56,7 @@ Slide slide(double turn, double mu) {
   const auto end = centre();
   const double dx = end[0] - start[0], dy = end[1] - start[1];
   // The last step went a little beyond kEnd: back along the parabola.
-  const double to_end = std::pow(kEnd / trial.sim.time, 2);
+  const double to_end = pow(kEnd / trial.sim.time, 2);
   return {(dx * along[0] + dy * along[1]) * to_end, dx * normal[0] + dy * normal[1]};
 }
 
@@ -64,7 +65,7 @@ Slide slide(double turn, double mu) {
 std::vector<Check> verify_incline(std::string_view name) {
   CheckList checks(name);
   const double mu = 0.3;
-  const double exact = 0.5 * kGravity * (std::sin(kSlope) - mu * std::cos(kSlope)) * kEnd * kEnd;
+  const double exact = 0.5 * kGravity * (sin(kSlope) - mu * cos(kSlope)) * kEnd * kEnd;
   for (const int degrees : {0, 15, 30, 45}) {
     const double turn = degrees * kPi / 180.0;
     const Slide sliding = slide(turn, mu);

@@ -35,6 +35,7 @@ std::vector<Check> verify_hit(std::string_view name);
 std::vector<Check> verify_corner(std::string_view name);
 std::vector<Check> verify_locking(std::string_view name);
 std::vector<Check> verify_leaving(std::string_view name);
+std::vector<Check> verify_extremes(std::string_view name);
 std::vector<Check> verify_return_maps(std::string_view name);
 
 }  // namespace flowslide::mpm

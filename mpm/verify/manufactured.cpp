@@ -1,3 +1,4 @@
+#include "core/elementary.hpp"
 #include "mpm/verify/list.hpp"
 #include "mpm/verify/periodic.hpp"
 
@@ -21,13 +22,13 @@ struct Wave {
   double k;
   double speed = std::sqrt(young / density);
   [[nodiscard]] double u(double x, double t) const {
-    return amplitude * std::sin(k * x) * std::sin(speed * k * t);
+    return amplitude * sin(k * x) * sin(speed * k * t);
   }
   [[nodiscard]] double start_velocity(double x) const {
-    return amplitude * speed * k * std::sin(k * x);
+    return amplitude * speed * k * sin(k * x);
   }
   [[nodiscard]] double body(double x, double t) const {
-    const double f = 1.0 + amplitude * k * std::cos(k * x) * std::sin(speed * k * t);
+    const double f = 1.0 + amplitude * k * cos(k * x) * sin(speed * k * t);
     return k * k * u(x, t) * (0.5 * young / density * (1.0 + 1.0 / (f * f)) - speed * speed);
   }
 };
@@ -52,7 +53,7 @@ double wave_error(Scene& scene, Trial& trial, const ParticleSet& p, const Wave& 
     for_each([&](std::size_t i) {
       const double x = p.position[static_cast<std::size_t>(q.index[i]) % n][0];
       const double error = q.x[0][i] - x - wave.u(x, trial.sim.time);
-      sum += std::pow(error - std::round(error), 2);  // the strip's length is 1
+      sum += pow(error - std::round(error), 2);  // the strip's length is 1
     });
     worst = std::max(worst, std::sqrt(sum / static_cast<double>(n)) / Wave::amplitude);
   }
@@ -102,22 +103,22 @@ struct Ring {
   static constexpr double mu = young / (2.0 * (1.0 + nu));
   double r, angle, h, h1, h2;  ///< radius, start angle, profile and its derivatives
 
-  Ring(double x, double y) : r(std::hypot(x, y)), angle(std::atan2(y, x)) {
+  Ring(double x, double y) : r(hypot(x, y)), angle(atan2(y, x)) {
     const double s = (r - 1.0) / (outer - inner), slope = 1.0 / (outer - inner);
     h = 1.0 - 8.0 * s * s + 16.0 * s * s * s * s;
     h1 = slope * (-16.0 * s + 64.0 * s * s * s);
     h2 = slope * slope * (-16.0 + 192.0 * s * s);
   }
   [[nodiscard]] std::array<double, 2> position(double t) const {
-    const double at = angle + h * std::sin(kPi * t);
-    return {r * std::cos(at), r * std::sin(at)};
+    const double at = angle + h * sin(kPi * t);
+    return {r * cos(at), r * sin(at)};
   }
   [[nodiscard]] std::array<double, 2> body(double t) const {
-    const double g = std::sin(kPi * t), rate = kPi * std::cos(kPi * t) * h;
+    const double g = sin(kPi * t), rate = kPi * cos(kPi * t) * h;
     const double gamma = r * g * h1, slope = g * (h1 + r * h2);
     const double radial = -rate * rate * r + mu * gamma * gamma / (density * r);
     const double turning = -kPi * kPi * g * h * r - mu / density * (slope + 2.0 * gamma / r);
-    const double at = angle + h * g, c = std::cos(at), s = std::sin(at);
+    const double at = angle + h * g, c = cos(at), s = sin(at);
     return {radial * c - turning * s, radial * s + turning * c};
   }
 };
@@ -130,7 +131,7 @@ RingErrors turn_ring(double h, int points_per_direction, Transfer transfer) {
   ParticleSet p;
   p.materials = {neo_hookean(Ring::young, Ring::nu)};
   fill(p, {-1.28, -1.28, 1.28, 1.28}, h / points_per_direction, Ring::density, 0, [](double x, double y) {
-    const double r = std::hypot(x, y);
+    const double r = hypot(x, y);
     return r > Ring::inner && r < Ring::outer;
   });
   std::vector<Ring> exact;
@@ -148,7 +149,7 @@ RingErrors turn_ring(double h, int points_per_direction, Transfer transfer) {
     double sum = 0.0;
     for (std::size_t i = 0; i < q.size(); ++i) {
       const auto at = exact[static_cast<std::size_t>(q.index[i])].position(trial.sim.time);
-      sum += std::pow(q.x[0][i] - at[0], 2) + std::pow(q.x[1][i] - at[1], 2);
+      sum += pow(q.x[0][i] - at[0], 2) + pow(q.x[1][i] - at[1], 2);
     }
     return std::sqrt(sum / static_cast<double>(q.size()));
   };

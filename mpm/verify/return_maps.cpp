@@ -146,7 +146,7 @@ Tally throw_at(int count) {
 
 std::vector<Check> verify_return_maps(std::string_view name) {
   CheckList checks(name);
-  AllLaws::each([&]<class M>() {
+  FlowLaws::each([&]<class M>() {
     // Laws that integrate in many parts get fewer states.
     const Tally t = throw_at<M>(std::is_same_v<M, NorSand> ? 100000 : 1000000);
     checks.error(fmt::format("{}_not_finite", M::name), t.bad, 0.0);

@@ -1,3 +1,4 @@
+#include "core/elementary.hpp"
 #include "mpm/rotation.hpp"
 
 #include "mpm/verify/list.hpp"
@@ -23,7 +24,7 @@ double angular_momentum(const Simulation<2>& s) {
 ParticleSet disc(double radius, double spacing, double density, double rate) {
   ParticleSet p;
   fill(p, {-radius, -radius, radius, radius}, spacing, density, 0,
-       [&](double x, double y) { return std::hypot(x, y) < radius; });
+       [&](double x, double y) { return hypot(x, y) < radius; });
   for (std::size_t q = 0; q < p.size(); ++q)
     p.velocity[q] = {-rate * p.position[q][1], rate * p.position[q][0], 0.0};
   return p;
@@ -73,7 +74,7 @@ double carried_stress_error() {
   }
   // The turn that the last step went beyond a full one.
   const Stress<2> exact = rotate(Stress<2>{{stress[0], stress[1], stress[2], stress[3]}},
-                                 2.0 * std::tan(0.5 * (turned - 2.0 * kPi)));
+                                 2.0 * tan(0.5 * (turned - 2.0 * kPi)));
   double error = 0.0;
   for (std::size_t i = 0; i < q.size(); ++i)
     for (int k = 0; k < 4; ++k) error = std::max(error, std::abs(q.sigma[k][i] - exact[k]));

@@ -1,3 +1,4 @@
+#include "core/elementary.hpp"
 #include "mpm/verify/list.hpp"
 #include "mpm/verify/periodic.hpp"
 
@@ -20,8 +21,8 @@ struct Layer {
     fill(p, {0.0, 0.0, 4.0 * cell, kDepth}, 0.5 * cell, density);
     for (std::size_t q = 0; q < p.size(); ++q) {
       const double weight = density * kGravity * (kDepth - p.position[q][1]);
-      const double normal = -weight * std::cos(angle);
-      p.stress[q] = {normal, normal, normal, sheared ? weight * std::sin(angle) : 0.0, 0.0, 0.0};
+      const double normal = -weight * cos(angle);
+      p.stress[q] = {normal, normal, normal, sheared ? weight * sin(angle) : 0.0, 0.0, 0.0};
     }
     return p;
   }
@@ -32,7 +33,7 @@ struct Layer {
     config.ground.surface = {{0.0, 0.0}};
     config.ground.friction = 1e6;
     PeriodicStrip s(points(soil, sheared), 4.0 * cell, config);
-    s.trial.sim.settings.gravity = {kGravity * std::sin(angle), -kGravity * std::cos(angle), 0.0};
+    s.trial.sim.settings.gravity = {kGravity * sin(angle), -kGravity * cos(angle), 0.0};
     return s;
   }
 };
@@ -81,7 +82,7 @@ SheetFlow sheet(double cell, double yield_stress) {
           : material("newtonian_fluid", {{"bulk_modulus", 2e6}, {"viscosity", viscosity}});
   PeriodicStrip s = layer.strip(fluid, false, Transfer::apic);
   s.run_to(5.0);  // twelve times the slowest time constant 4 rho d^2 / (pi^2 eta)
-  const double weight = density * kGravity * std::sin(layer.angle);
+  const double weight = density * kGravity * sin(layer.angle);
   const double sheared = kDepth - yield_stress / weight;
   const double plug = 0.5 * weight * sheared * sheared / viscosity;
   const Points<2>& q = s.trial.sim.points;
@@ -89,7 +90,7 @@ SheetFlow sheet(double cell, double yield_stress) {
   s.for_each([&](std::size_t i) {
     const double y = std::min(q.x[1][i], sheared);
     const double exact = weight / viscosity * (sheared * y - 0.5 * y * y);
-    sum += std::pow(q.v[0][i] - exact, 2);
+    sum += pow(q.v[0][i] - exact, 2);
     count += 1.0;
     if (q.x[1][i] < kDepth - cell) return;
     top += q.v[0][i];
@@ -103,7 +104,7 @@ SheetFlow sheet(double cell, double yield_stress) {
 std::vector<Check> verify_infinite_slope(std::string_view name) {
   CheckList checks(name);
   const Layer layer{kPi / 6.0, 2000.0, kDepth / 16.0}, fine{kPi / 6.0, 2000.0, kDepth / 32.0};
-  const double drive = kGravity * std::sin(layer.angle);
+  const double drive = kGravity * sin(layer.angle);
   // The soil slips 0.6 cells above the ground and leaves the rest behind: an error of first order.
   const auto check = [&](const std::string& label, const MaterialSpec& soil, double exact) {
     const double at_16 = slide_acceleration(layer, soil, Transfer::aflip);
@@ -122,7 +123,7 @@ std::vector<Check> verify_infinite_slope(std::string_view name) {
                                   {"poisson_ratio", 0.3},
                                   {"cohesion", 0.0},
                                   {"friction_angle", phi}}),
-        drive - kGravity * std::cos(layer.angle) * std::sin(phi));
+        drive - kGravity * cos(layer.angle) * sin(phi));
   const double strong = 1.01 * layer.density * drive * kDepth;
   checks.error("stands_c1.01", slide_acceleration(layer, tresca(strong), Transfer::apic),
                0.01 * drive, "m/s2");
@@ -133,7 +134,7 @@ std::vector<Check> verify_sheet_flow(std::string_view name) {
   CheckList checks(name);
   for (const double yield_stress : {0.0, 1000.0}) {
     const char* label = yield_stress > 0.0 ? "bingham" : "newtonian";
-    const double weight = 1000.0 * kGravity * std::sin(20.0 * kPi / 180.0);
+    const double weight = 1000.0 * kGravity * sin(20.0 * kPi / 180.0);
     const double sheared = kDepth - yield_stress / weight;
     const double plug = 0.5 * weight * sheared * sheared / 1000.0;
     std::vector<double> size, error;

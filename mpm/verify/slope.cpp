@@ -1,3 +1,4 @@
+#include "core/elementary.hpp"
 #include "mpm/verify/list.hpp"
 #include "mpm/verify/trial.hpp"
 
@@ -17,7 +18,7 @@ double displacement(double factor, double h) {
   p.materials = {material("mohr_coulomb", {{"youngs_modulus", 100e6},
                                            {"poisson_ratio", 0.3},
                                            {"cohesion", c / factor},
-                                           {"friction_angle", std::atan(std::tan(phi) / factor)},
+                                           {"friction_angle", std::atan(tan(phi) / factor)},
                                            {"tension_cutoff", 0.0}})};
   fill(p, {0.0, 0.0, crest + 2.0 * height, height}, 0.5 * h, density, 0,
        [&](double x, double y) { return y < height - 0.5 * (x - crest); });
@@ -39,7 +40,7 @@ double displacement(double factor, double h) {
   for (std::size_t i = 0; i < q.size(); ++i) {
     const auto start = static_cast<std::size_t>(q.index[i]);
     largest = std::max(
-        largest, std::hypot(q.x[0][i] - p.position[start][0], q.x[1][i] - p.position[start][1]));
+        largest, hypot(q.x[0][i] - p.position[start][0], q.x[1][i] - p.position[start][1]));
   }
   return largest;
 }

@@ -1,4 +1,5 @@
 #include "core/conventions.hpp"
+#include "core/elementary.hpp"
 #include "mpm/balance.hpp"
 #include "mpm/load.hpp"
 #include "mpm/verify/list.hpp"
@@ -17,8 +18,8 @@ constexpr double kEnd = 1.0;
 using Axes = std::array<std::array<double, 3>, 3>;  ///< up the slope, across it, normal to it
 
 Axes axes(double angle, double direction) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  const double x = std::cos(direction), y = std::sin(direction);
+  const double c = cos(angle), s = sin(angle);
+  const double x = cos(direction), y = sin(direction);
   return {{{c * x, c * y, s}, {-y, x, 0.0}, {-s * x, -s * y, c}}};
 }
 
@@ -69,7 +70,7 @@ std::array<double, 3> slide(double angle, double direction, double friction) {
   const Axes axis = axes(angle, direction);
   FlowConfig config = free_space(kCell);
   config.gravity = kGravity;
-  Simulation<3> s = make_simulation<3>(block(axis, kGravity * std::cos(angle)), config);
+  Simulation<3> s = make_simulation<3>(block(axis, kGravity * cos(angle)), config);
   s.ground.friction = friction;
   s.ground.field = plane(axis);
   StepScratch<3> scratch(1);
@@ -82,7 +83,7 @@ std::array<double, 3> slide(double angle, double direction, double friction) {
   };
   std::array<double, 3> way{centre(0), centre(1), centre(2)};
   while (s.time < kEnd) advance(s, scratch);
-  const double to_end = std::pow(kEnd / s.time, 2);
+  const double to_end = pow(kEnd / s.time, 2);
   for (int a = 0; a < 3; ++a) way[a] = centre(a) - way[a];
   return {-way[0] * to_end, way[1] * to_end, way[2]};
 }
@@ -99,7 +100,7 @@ std::vector<Check> verify_terrain(std::string_view name) {
                         Case{30, 30, 0.0}}) {
     const double angle = c.degrees * kPi / 180.0;
     const double exact =
-        0.5 * kGravity * (std::sin(angle) - c.friction * std::cos(angle)) * kEnd * kEnd;
+        0.5 * kGravity * (sin(angle) - c.friction * cos(angle)) * kEnd * kEnd;
     const auto [down, across, away] = slide(angle, c.direction * kPi / 180.0, c.friction);
     const std::string label =
         fmt::format("{}_deg_towards_{}_mu_{}", c.degrees, c.direction, c.friction);

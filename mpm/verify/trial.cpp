@@ -1,5 +1,7 @@
 #include "mpm/verify/trial.hpp"
 
+#include "core/elementary.hpp"
+
 #include <cmath>
 
 namespace flowslide::mpm {
@@ -47,7 +49,7 @@ void Trial::step() {
 }
 
 void Trial::damp(double rate) {
-  const double keep = std::exp(-rate * sim.dt);
+  const double keep = exp(-rate * sim.dt);
   for (auto& component : sim.points.v)
     for (double& v : component) v *= keep;
   for (auto& component : sim.points.c)
@@ -67,13 +69,13 @@ double fitted_order(const std::vector<double>& cells, const std::vector<double>&
   double mean_x = 0.0, mean_y = 0.0;
   const auto n = static_cast<double>(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    mean_x += std::log(cells[i]) / n;
-    mean_y += std::log(errors[i]) / n;
+    mean_x += log(cells[i]) / n;
+    mean_y += log(errors[i]) / n;
   }
   double xy = 0.0, xx = 0.0;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const double dx = std::log(cells[i]) - mean_x;
-    xy += dx * (std::log(errors[i]) - mean_y);
+    const double dx = log(cells[i]) - mean_x;
+    xy += dx * (log(errors[i]) - mean_y);
     xx += dx * dx;
   }
   return xy / xx;

@@ -1,4 +1,5 @@
 #include "core/conventions.hpp"
+#include "core/elementary.hpp"
 #include "section/slip_search.hpp"
 #include "section/verify/list.hpp"
 
@@ -72,7 +73,7 @@ std::vector<Check> verify_taylor(std::string_view name) {
                        .residual = {}};
   for (const auto& [angle, number] : {std::pair{60.0, 0.191}, {75.0, 0.219}, {90.0, 0.261}}) {
     // A vertical cut is given the width of 20 mm: the ground is a function of x here.
-    const double width = angle == 90.0 ? 0.02 : kHeight / std::tan(angle * kDegree);
+    const double width = angle == 90.0 ? 0.02 : kHeight / tan(angle * kDegree);
     const SlopeModel m = straight_slope(clay, width, kHeight, -30.0);
     const SlipSearch search{
         .entry = {-30.0, -0.5}, .exit = {width, width + 0.01}, .floor = -30.0, .slice_width = 0.25};

@@ -111,6 +111,14 @@ expect "one line is redrawn on a terminal" says $'\r\033[Kcompiling 50 %'
 expect "and is gone at the end" test "$(tail -c 4 "$folder/err")" = $'\r\033[K'
 
 fresh
+double dpkg-query 'case "$*" in *clang*) exit 1 ;; esac; printf "install ok installed"'
+double cmake 'case "$*" in --preset*) mkdir -p build/fuzz ;; esac'
+code=0
+PATH="$folder/bin" "$folder/checkout/cmake/build.sh" --preset fuzz one two 2>"$folder/err" || code=$?
+expect "another preset needs its own packages" called "Status-Fd=1 clang libclang-rt-dev"
+expect "and builds all targets named" called "cmake --build --preset fuzz --target one two"
+
+fresh
 rm "$folder/bin/apt-get" "$folder/bin/dpkg-query"
 build
 expect "other systems build with what they have" test "$code" -eq 0

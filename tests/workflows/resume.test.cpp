@@ -1,7 +1,7 @@
 #include "core/check.hpp"
 #include "tests/support/scratch.hpp"
 #include "tests/workflows/sample_stages.hpp"
-#include "workflows/engine/run_folder.hpp"
+#include "workflows/engine/result_folder.hpp"
 #include "workflows/engine/runner.hpp"
 
 #include <algorithm>

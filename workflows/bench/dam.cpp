@@ -1,5 +1,6 @@
 #include "workflows/bench/dam.hpp"
 
+#include "core/elementary.hpp"
 #include "core/temporary_folder.hpp"
 #include "fem/run.hpp"
 #include "model/history.hpp"
@@ -61,15 +62,15 @@ FemMaterialConfig material(double density, double void_ratio, std::array<double,
   p.Dr = Dr;
   p.G0 = G0;
   p.hpo = hpo;
-  m.pm4sand = p;
+  m.laws.of<PM4Sand>() = p;
   return m;
 }
 
 FemConfig settings() {
   FemConfig c;
   c.materials["tailings"] = material(1870, 0.99, {7.1e-6, 7.1e-9}, 0.35, 476, 2.70);
-  c.materials["tailings"].pm4sand->Q = 11.998;
-  c.materials["tailings"].pm4sand->R = 3.75;
+  c.materials["tailings"].laws.of<PM4Sand>()->Q = 11.998;
+  c.materials["tailings"].laws.of<PM4Sand>()->R = 3.75;
   c.materials["embankment"] = material(1690, 1.20, {1e-6, 1e-6}, 0.55, 677, 0.40);
   c.materials["foundation"] = material(1900, 0.80, {1e-5, 1e-5}, 0.75, 890, 0.63);
   c.water.emplace();
@@ -89,7 +90,7 @@ GroundMotion strong() {
   GroundMotion m{.dt = 0.01, .acceleration = {}, .origin = "sine of 0.3 g"};
   for (int i = 0; i <= std::lround(kEnd / m.dt); ++i) {
     const double t = m.dt * i;
-    m.acceleration.push_back(0.3 * kGravity * std::min(1.0, t / 0.4) * std::sin(5.0 * kPi * t));
+    m.acceleration.push_back(0.3 * kGravity * std::min(1.0, t / 0.4) * sin(5.0 * kPi * t));
   }
   return m;
 }
@@ -123,7 +124,7 @@ Outcome shake(const SectionMesh& mesh, const FemConfig& config) {
   double base = 0.0, bases = 0.0, nearest = 1e300;
   for (std::size_t i = 0; i < mesh.mesh.num_nodes(); ++i) {
     const auto [x, y] = mesh.mesh.nodes[i];
-    const double distance = std::hypot(x + 20.0, y - 30.0);
+    const double distance = hypot(x + 20.0, y - 30.0);
     if (distance < nearest) nearest = distance, r.crest = end.displacement[i][0];
     if (y < -5.0 + 1e-9) base += end.displacement[i][0], bases += 1.0;
   }
@@ -188,7 +189,7 @@ std::vector<Measurement> measure_dam() {
   const SectionMesh mesh = dam(kSavingsAt, kLeft);
   FemConfig careful = settings();
   careful.courant = 0.1;
-  for (auto& [name, m] : careful.materials) m.pm4sand->tolerance = 1e-6;
+  for (auto& [name, m] : careful.materials) m.laws.of<PM4Sand>()->tolerance = 1e-6;
   const Outcome exact = shake(mesh, careful);
   const auto with = [&](const std::string& name, const SectionMesh& section,
                         const std::function<void(FemConfig&)>& change) {
@@ -201,19 +202,19 @@ std::vector<Measurement> measure_dam() {
   with("courant 0.25", mesh, [](FemConfig& c) { c.courant = 0.25; });
   with("courant 0.9", mesh, [](FemConfig& c) { c.courant = 0.9; });
   with("tolerance 1e-3", mesh, [](FemConfig& c) {
-    for (auto& [name, m] : c.materials) m.pm4sand->tolerance = 1e-3;
+    for (auto& [name, m] : c.materials) m.laws.of<PM4Sand>()->tolerance = 1e-3;
   });
   with("increment 1, tolerance 1e-3", mesh, [](FemConfig& c) {
     for (auto& [name, m] : c.materials) {
-      m.pm4sand->tolerance = 1e-3;
-      m.pm4sand->max_strain_increment = 1.0;
+      m.laws.of<PM4Sand>()->tolerance = 1e-3;
+      m.laws.of<PM4Sand>()->max_strain_increment = 1.0;
     }
   });
   with("elastic foundation", mesh, [](FemConfig& c) {
     FemMaterialConfig& m = c.materials["foundation"];
-    const Elasticity e = PM4Sand::gravity_elasticity(*m.pm4sand, 0.3);
-    m.pm4sand.reset();
-    m.linear_elastic = LinearElastic::Params{2.6 * e.shear, 0.3};
+    const Elasticity e = PM4Sand::gravity_elasticity(*m.laws.of<PM4Sand>(), 0.3);
+    m.laws.of<PM4Sand>().reset();
+    m.laws.of<LinearElastic>() = LinearElastic::Params{2.6 * e.shear, 0.3};
   });
   with("drained foundation", mesh, [](FemConfig& c) { c.materials["foundation"].drained = true; });
   with("free field 30 m wide", mesh, [](FemConfig& c) { c.sides.width = 30.0; });

@@ -1,0 +1,293 @@
+#!/usr/bin/env python3
+"""Makes one system call or request for memory after the other go wrong in short runs of the program.
+
+    faults.py PROGRAM SHIM [--full] [--scene NAME] [--action NAME] [--at N] [--list]
+
+After each: the exit code is that of files (4), nothing incomplete lies under a final name, and the
+same command, undisturbed, ends with the bytes of a run that never was disturbed. Without --full
+every call is still met by one action or another, but not by all of them: see STRIDES.
+"""
+
+import argparse
+import collections
+import glob
+import multiprocessing
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+import scenes as scene_list
+import tree
+
+LIMIT = 60  # seconds that a run may take
+
+CHANGING = "owcsnum"  # letters of calls that change the disk, see Call in faults.hpp
+ACTIONS = {  # name: letter, kind, the calls it is made for
+    "fail": ("f", "files", CHANGING + "rl"),
+    "full": ("F", "files", "owm"),
+    "dead": ("d", "files", CHANGING + "rl"),
+    "part": ("p", "files", "wr"),
+    "interrupt": ("i", "files", "owsr"),
+    "kill": ("k", "files", CHANGING),
+    "torn": ("t", "files", "w"),
+    "cut": ("c", "files", CHANGING),
+    "cut names": ("C", "files", CHANGING),
+    "stop": ("s", "files", CHANGING),
+    "memory": ("f", "memory", None),
+    "no memory": ("d", "memory", None),
+}
+# Every how manieth point is taken in a short run.
+STRIDES = {"fail": 1, "full": 3, "dead": 5, "part": 3, "interrupt": 7, "kill": 2, "torn": 2,
+           "cut": 2, "cut names": 3, "stop": 9, "memory": 40, "no memory": 200}
+# A run that is stopped, or whose call was only interrupted or shortened, may end well.
+HARMLESS = {"part", "interrupt", "stop"}
+
+
+class Program:
+    """The program, waiting in the shim's server for jobs."""
+
+    def __init__(self, program, shim):
+        environment = dict(os.environ, LD_PRELOAD=shim, GOMP_SPINCOUNT="1000", LC_ALL="C")
+        self.process = subprocess.Popen([program], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                        env=environment, text=True)
+
+    def run(self, root, arguments, action="-", kind="files", number=0, clock=0.0):
+        """(wait status as an exit code, negative for signals; fired; count; list)"""
+        job = [f"{root}.said", root, kind, action, number, clock, LIMIT, "flowslide", *arguments]
+        self.process.stdin.write("\t".join(map(str, job)) + "\n")
+        self.process.stdin.flush()
+        answer = self.process.stdout.readline()
+        if not answer:
+            raise RuntimeError("the shim's server has ended")
+        status, fired, count, calls = answer.rstrip("\n").split("\t")
+        return (os.waitstatus_to_exitcode(int(status)), fired == "1", int(count),
+                [int(n) for n in calls.split()] if kind == "memory" else calls)
+
+
+class Worker:
+    """A folder of its own with the states from which scenes start."""
+
+    def __init__(self, options, folder, fine=False):
+        self.options, self.folder, self.root = options, folder, f"{folder}/root"
+        self.program = Program(options.program, options.shim)
+        os.makedirs(self.root, exist_ok=True)
+        scene_list.write_inputs(f"{self.root}/in", fine)
+        if not options.control:
+            self.call(scene_list.run_command("shake", "texts"))
+            shutil.copytree(glob.glob(f"{self.root}/texts/stages/shake/*/recorders")[0],
+                            f"{self.root}/in/recorders")
+            shutil.rmtree(f"{self.root}/texts")
+        os.makedirs(f"{self.root}/made")
+        shutil.copytree(self.root, f"{folder}/start")
+
+    def call(self, command):
+        code, *_ = self.program.run(self.root, [w.replace("ROOT", self.root) for w in command])
+        if code != 0:
+            raise RuntimeError(f"{command} ended with {code}: {self.said()}")
+
+    def said(self):
+        with open(f"{self.root}.said", errors="replace") as file:
+            return file.read()[-2000:]
+
+    def command(self, scene):
+        words = [w.replace("ROOT", self.root) for w in scene.command]
+        for i, word in enumerate(words):
+            if word.startswith("FIND/"):
+                name = word[5:]
+                pattern = name if "/" in name else f"*/*/{name}"
+                words[i] = glob.glob(f"{self.root}/out/stages/{pattern}")[0]
+        return words
+
+    def prepare(self, scene):
+        """Makes the state from which a scene starts, and the undisturbed run."""
+        self.restore(f"{self.folder}/start")
+        for command in scene.before:
+            self.call(command)
+        command = self.command(scene)
+        if scene.damage:
+            path = glob.glob(f"{self.root}/out/stages/*/*/{scene.damage}")[0]
+            with open(path, "r+b") as file:
+                file.seek(-100, os.SEEK_END)
+                byte = file.read(1)
+                file.seek(-100, os.SEEK_END)
+                file.write(bytes([byte[0] ^ 1]))
+        if scene.continued:
+            self.stop_half_way(command, scene.clock)
+        state = f"{self.folder}/{scene.name}"
+        shutil.copytree(self.root, state, symlinks=True)
+        start = tree.snapshot(self.root)
+        code, _, _, calls = self.program.run(self.root, command, clock=scene.clock)
+        if code != 0:
+            raise RuntimeError(f"{scene.name} ended with {code}: {self.said()}")
+        whole = tree.snapshot(self.root)
+        self.restore(state)
+        places = self.program.run(self.root, command, kind="memory", clock=scene.clock)[3]
+        return state, command, start, whole, calls, places
+
+    def stop_half_way(self, command, clock):
+        """SIGTERM at the first call of a row after which the run leaves a checkpoint."""
+        state = f"{self.folder}/before"
+        shutil.copytree(self.root, state, symlinks=True)
+        count = self.program.run(self.root, command, clock=clock)[2]
+        for number in range(count // 4, count, max(1, count // 20)):
+            self.restore(state)
+            code, *_ = self.program.run(self.root, command, "s", number=number, clock=clock)
+            if code == 130 and glob.glob(f"{self.root}/out/stages/*/*.partial/checkpoint"):
+                shutil.rmtree(state)
+                return
+        raise RuntimeError(f"{command} leaves no checkpoint wherever it is stopped")
+
+    def restore(self, state):
+        """The folder itself stays; it may be a disk of its own."""
+        for entry in os.scandir(self.root):
+            if entry.is_dir(follow_symlinks=False):
+                shutil.rmtree(entry.path)
+            else:
+                os.remove(entry.path)
+        shutil.copytree(state, self.root, symlinks=True, dirs_exist_ok=True)
+
+    def inject(self, scene, prepared, name, number):
+        """Problems after a fault at one point, and what the run said; None if it had no such call."""
+        state, command, start, whole, _, _ = prepared
+        self.restore(state)
+        letter, kind, _ = ACTIONS[name]
+        code, fired, *_ = self.program.run(self.root, command, letter, kind, number, scene.clock)
+        said = self.said()
+        if not fired:
+            return None
+        now = tree.snapshot(self.root)
+        problems = []
+        killed = name in ("kill", "torn", "cut", "cut names")
+        allowed = {-signal.SIGKILL, 0} if killed else {0, 4, 130} if name == "stop" else {0, 4}
+        if code not in allowed:
+            problems.append(f"ends with {code}: {said.strip().splitlines()[-1:]}")
+        if code == 0 and (wrong := tree.differences(now, whole)):
+            problems.append(f"ends with 0, but {wrong[0]}")
+        problems += [f"leaves: {w}" for w in tree.incomplete(self.root, now, start, whole)[:2]]
+        code, *_ = self.program.run(self.root, command)
+        if code != 0:
+            problems.append(f"again: ends with {code}: {self.said().strip().splitlines()[-1:]}")
+        else:
+            wrong = tree.differences(tree.snapshot(self.root), whole)
+            problems += [f"again: {w}" for w in wrong[:2]]
+        return problems, said
+
+
+def points(scene, name, prepared, stride):
+    _, kind, letters = ACTIONS[name]
+    calls, places = prepared[4:6]
+    if scene.kills_only:
+        return chosen_kills(calls)[::stride] if name == "kill" else []
+    numbers = places if kind == "memory" else [i + 1 for i, c in enumerate(calls) if c in letters]
+    if name.startswith("cut"):
+        numbers.append(len(calls) + 1)  # after the end
+    # Strides start anywhere, so that they do not keep step with a pattern of the calls.
+    first = random.Random(name).randrange(stride)
+    return numbers[first::stride]
+
+
+def chosen_kills(calls):
+    """100 calls at random, 10 renames and what comes after them."""
+    draw = random.Random(11)
+    renames = [i + 1 for i, c in enumerate(calls) if c == "n"]
+    chosen = sorted(draw.sample(renames, 10))
+    return draw.sample(range(1, len(calls) + 1), 100) + chosen + [n + 1 for n in chosen]
+
+
+worker = None
+
+
+def start_worker(options, folder):
+    global worker
+    worker = Worker(options, f"{folder}/{os.getpid()}")
+
+
+def work(task):
+    """A share of the points of a scene: a list of (scene, action, call, number, problems)."""
+    options, scene, share, shares = task
+    prepared = worker.prepare(scene)
+    done = []
+    for name in options.action or ACTIONS:
+        stride = 1 if options.full else options.every * STRIDES[name]
+        for number in (options.at or points(scene, name, prepared, stride))[share::shares]:
+            outcome = worker.inject(scene, prepared, name, number)
+            if outcome is None:
+                continue
+            problems, said = outcome
+            call = prepared[4][number - 1:number] if ACTIONS[name][1] == "files" else "a"
+            done.append((scene.name, name, call, number, problems))
+            if options.at:
+                print(f"{scene.name}, {name} at {number} ({call}): {problems or 'passed'}\n{said}")
+    shutil.rmtree(prepared[0])
+    return done
+
+
+def run_all(options, folder):
+    chosen = [scene_list.CONTROL] if options.control else scene_list.scenes()
+    chosen = [s for s in chosen if not options.scene or s.name in options.scene]
+    tasks = [(options, s, i, options.jobs) for s in chosen for i in range(options.jobs)]
+    done = []
+    with multiprocessing.Pool(options.jobs, start_worker, (options, folder)) as pool:
+        for share in pool.imap_unordered(work, tasks):
+            report_failures(share)
+            done += share
+    return done
+
+
+def report_failures(done):
+    groups = collections.defaultdict(list)
+    for scene, name, call, number, problems in done:
+        for problem in problems:
+            groups[scene, name, call, problem].append(number)
+    for (scene, name, call, problem), numbers in sorted(groups.items()):
+        more = f" and {len(numbers) - 5} more" if len(numbers) > 5 else ""
+        print(f"FAILED {scene}, {name}, call '{call}' at {numbers[:5]}{more}: {problem}",
+              flush=True)
+
+
+def report(done):
+    table = collections.defaultdict(lambda: [0, 0])
+    for scene, name, _, _, problems in done:
+        table[scene, name][0] += 1
+        table[scene, name][1] += not problems
+    names = [n for n in ACTIONS if any(key[1] == n for key in table)]
+    print("| " + " | ".join(["scene", *names]) + " |\n|" + "---|" * (len(names) + 1))
+    for scene in dict.fromkeys(key[0] for key in table):
+        row = [table.get((scene, n), [0, 0]) for n in names]
+        print("| " + " | ".join([scene] + [f"{good}/{all_}" for all_, good in row]) + " |")
+    passed = sum(not d[4] for d in done)
+    print(f"{len(done)} injection points, {passed} passed")
+    return passed == len(done)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("program")
+    parser.add_argument("shim")
+    parser.add_argument("--full", action="store_true", help="every point of every action")
+    parser.add_argument("--every", type=int, default=1, help="only every so manieth of them")
+    parser.add_argument("--scene", action="append")
+    parser.add_argument("--action", action="append", choices=ACTIONS)
+    parser.add_argument("--at", type=int, action="append", help="only these calls")
+    parser.add_argument("--control", action="store_true", help="PROGRAM is the careless one")
+    parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
+    options = parser.parse_args()
+    options.program, options.shim = map(os.path.abspath, (options.program, options.shim))
+    if options.at:
+        options.jobs = 1
+    begin = time.time()
+    # Memory in place of a disk, if there is any: syncing costs nothing there.
+    place = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
+    with tempfile.TemporaryDirectory(prefix="flowslide-faults-", dir=place) as folder:
+        good = report(run_all(options, folder))
+    print(f"{time.time() - begin:.0f} s")
+    return 0 if good else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
