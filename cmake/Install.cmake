@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 set(headers "${CMAKE_INSTALL_INCLUDEDIR}/flowslide")
 set(package "${CMAKE_INSTALL_LIBDIR}/cmake/flowslide")
 
-# The libraries of a folder and of those below it; tests have none that anybody else needs.
+# The libraries of a folder and of those below it, but for tests.
 function(list_modules folder result)
   get_directory_property(below DIRECTORY "${folder}" SUBDIRECTORIES)
   get_directory_property(here DIRECTORY "${folder}" BUILDSYSTEM_TARGETS)
@@ -19,6 +19,7 @@ function(list_modules folder result)
       list(APPEND found ${target})
     endif()
   endforeach()
+  list(FILTER below EXCLUDE REGEX "^${PROJECT_SOURCE_DIR}/tests/")
   foreach(subfolder IN LISTS below)
     list_modules("${subfolder}" more)
     list(APPEND found ${more})
