@@ -84,6 +84,7 @@ int run(int argc, char** argv) {
   flowslide::cli::add_bench(app, action);
   flowslide::cli::add_schema(app, action);
   flowslide::cli::add_docs(app, action);
+  flowslide::cli::add_completion(app, action);
   check_command(app, argc, argv);
   try {
     app.parse(argc, argv);

@@ -8,7 +8,7 @@ include("${CMAKE_CURRENT_LIST_DIR}/modules.cmake")
 set(rules
     "^yaml-cpp/" "^config/yaml[a-z_]*[.]cpp$" "config/yaml*.cpp"
     "^(hdf5|H5[A-Za-z]*)[.]h$" "^model/" "model/"
-    "^vtk" "^model/vtk_writer[.]cpp$" "model/vtk_writer.cpp"
+    "^vtk" "^model/vtk_library[.]cpp$" "model/vtk_library.cpp"
     "^CLI/" "^cli/" "cli/"
     "^nlohmann/" "[.]cpp$|^workflows/engine/sealed_json[.]hpp$" ".cpp files and sealed_json.hpp, which only they include"
     "^openssl/" "^core/" "core/"
