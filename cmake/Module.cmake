@@ -1,45 +1,3 @@
-# Headers that nearly every file reads, read once. Off in the presets that look for faults: there a
-# file has to name what it uses.
-option(FLOWSLIDE_PCH "Precompile the headers of the standard library, fmt, Eigen and Catch2" OFF)
-set(flowslide_common_headers
-  <algorithm> <array> <chrono> <cmath> <filesystem> <fstream> <functional> <map> <memory> <optional>
-  <set> <span> <sstream> <string> <variant> <vector> <fmt/format.h>)
-
-# share_headers(target libraries kind HEADERS...): gives the target the common headers and HEADERS,
-# precompiled once for all of a kind (module, test) with and without OpenMP.
-function(share_headers target libraries kind)
-  if(NOT FLOWSLIDE_PCH)
-    return()
-  endif()
-  set(owner flowslide_headers_${kind})
-  set(headers ${flowslide_common_headers} ${ARGN})
-  if("OpenMP::OpenMP_CXX" IN_LIST libraries)
-    string(APPEND owner _openmp)
-    list(APPEND headers <Eigen/Core>)
-  endif()
-  if(NOT TARGET ${owner})
-    file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/${owner}.cpp" CONTENT "")
-    add_library(${owner} OBJECT "${PROJECT_BINARY_DIR}/${owner}.cpp")
-    target_link_libraries(${owner} PRIVATE flowslide_options flowslide_warnings fmt::fmt Eigen3::Eigen)
-    if(owner MATCHES openmp)
-      target_link_libraries(${owner} PRIVATE OpenMP::OpenMP_CXX)
-    endif()
-    if(kind STREQUAL "test")  # part of an executable
-      set_target_properties(${owner} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
-      target_compile_options(${owner} PRIVATE -fPIE)
-    endif()
-    target_precompile_headers(${owner} PRIVATE ${headers})
-  endif()
-  target_precompile_headers(${target} REUSE_FROM ${owner})
-endfunction()
-
-# Nothing in these, in commands and in tests runs per point, element or row of a file: half the
-# optimisation saves a quarter of the time of compiling them.
-set(flowslide_seldom_run "^(config|report|workflows|verify_.*|.*_verify)$")
-function(optimise_less target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
-endfunction()
-
 # add_module(name SOURCES ... LINKS ... [PRIVATE_LINKS ...])
 # One static library per folder. LINKS are the modules whose headers it may include; the test
 # style.includes reads the same list.
@@ -49,10 +7,6 @@ function(add_module name)
   add_library(flowslide::${name} ALIAS flowslide_${name})
   target_link_libraries(flowslide_${name} PUBLIC flowslide_options ${M_LINKS}
                         PRIVATE $<BUILD_INTERFACE:flowslide_warnings> ${M_PRIVATE_LINKS})
-  if(name MATCHES "${flowslide_seldom_run}")
-    optimise_less(flowslide_${name})
-  endif()
-  share_headers(flowslide_${name} "${M_PRIVATE_LINKS}" module)
 endfunction()
 
 # add_rooms(name room ...)
@@ -77,8 +31,6 @@ function(add_module_tests name)
   list(TRANSFORM T_SOURCES PREPEND "${PROJECT_SOURCE_DIR}/tests/${name}/")
   add_executable(test_${name} ${T_SOURCES})
   target_link_libraries(test_${name} PRIVATE flowslide::${name} ${T_LINKS} flowslide_warnings flowslide_catch_main)
-  optimise_less(test_${name})
-  share_headers(test_${name} "${T_LINKS}" test <catch2/catch.hpp>)
   catch_discover_tests(test_${name} TEST_PREFIX "${name}." PROPERTIES LABELS unit)
 endfunction()
 

@@ -5,8 +5,6 @@ target_include_directories(flowslide_options INTERFACE
 # No -ffast-math: NaN means "unset" and results must not depend on reordering. These two only
 # free the compiler from errno and floating-point exceptions, which nothing here reads.
 target_compile_options(flowslide_options INTERFACE -fno-math-errno -fno-trapping-math)
-# Nobody replaces a function of a library at load time, so position-independent code may inline it.
-target_compile_options(flowslide_options INTERFACE -fno-semantic-interposition)
 target_compile_features(flowslide_options INTERFACE cxx_std_20)  # for those who link an installed module
 # The same bits on every machine (docs/adr/0002): no fused multiply-add where the compiler happens
 # to see one, and Eigen's sums neither in the width of a register, nor in blocks that suit the
