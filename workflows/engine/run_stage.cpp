@@ -156,8 +156,8 @@ StageState run_stage(const WorkflowStage& stage, const Decision& decision,
   for (const Port& port : stage.type.outputs)
     record.outputs.push_back({port.name, port.file, content_hash(record.files, port.file)});
   write_record(work, record);
-  remove_path(work / kSessionFile);
   install_result(work, final);
+  remove_path(final / kSessionFile);  // not before: a kill during the last sync continues there
   return {record, as_hashed(record, final)};
 }
 
