@@ -7,11 +7,13 @@ target_include_directories(flowslide_options INTERFACE
 target_compile_options(flowslide_options INTERFACE -fno-math-errno -fno-trapping-math)
 target_compile_features(flowslide_options INTERFACE cxx_std_20)  # for those who link an installed module
 # The same bits on every machine (docs/adr/0002): no fused multiply-add where the compiler happens
-# to see one, and Eigen's sums neither in the width of a register, nor in blocks that suit the
-# cache, nor dealt to threads.
-target_compile_options(flowslide_options INTERFACE -ffp-contract=off)
-target_compile_definitions(flowslide_options INTERFACE
-  EIGEN_DONT_VECTORIZE EIGEN_NO_CPUID EIGEN_DONT_PARALLELIZE)
+# to see one, and Eigen's sums neither in the width of a register nor in blocks that suit the cache.
+# They are never dealt to threads, whose number may not matter anywhere.
+target_compile_definitions(flowslide_options INTERFACE EIGEN_DONT_PARALLELIZE)
+if(FLOWSLIDE_SAME_BITS)
+  target_compile_options(flowslide_options INTERFACE -ffp-contract=off)
+  target_compile_definitions(flowslide_options INTERFACE EIGEN_DONT_VECTORIZE EIGEN_NO_CPUID)
+endif()
 if(FLOWSLIDE_ARCH)
   target_compile_options(flowslide_options INTERFACE "-march=${FLOWSLIDE_ARCH}")
 endif()

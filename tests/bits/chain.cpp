@@ -7,7 +7,7 @@
 #include "tests/bits/digest.hpp"
 #include "tests/bits/scenes.hpp"
 #include "tests/support/paths.hpp"
-#include "workflows/engine/run_folder.hpp"
+#include "workflows/engine/result_folder.hpp"
 #include "workflows/engine/runner.hpp"
 #include "workflows/stages/stage_list.hpp"
 
