@@ -22,7 +22,7 @@ from pathlib import Path
 ALLOWED = {0, 2, 3, 4, 130}
 MEMORY = 8 << 30  # of one run [bytes]
 
-BLOCK = [["0 m", "0 m"], ["16 m", "0 m"], ["12 m", "6 m"], ["0 m", "6 m"]]
+BLOCK = [["0 m", "0 m"], ["16 m", "0 m"], ["16 m", "3 m"], ["0 m", "6 m"]]
 SOIL = {"youngs_modulus": "5 MPa", "poisson_ratio": 0.3, "cohesion": "2 kPa",
         "friction_angle": "30 deg"}
 SCENE = {
@@ -39,7 +39,7 @@ SCENE = {
                   "in": {"mesh": "mesh.mesh", "motion": "motion.motion"}, "with": {
             "materials": {"soil": {"density": "1900 kg/m3", "void_ratio": 0.8,
                                    "permeability": ["1e-6 m/s", "1e-6 m/s"], "mohr_coulomb": SOIL}},
-            "end": "0.2 s", "output_interval": "0.1 s"}},
+            "base": {"motion": "within"}, "end": "0.2 s", "output_interval": "0.1 s"}},
         "zone": {"uses": "transfer.zone", "in": {"history": "shake.history"}, "with": {
             "when": "gravity", "zone": "all", "liquefiable": [1], "windows": {},
             "densities": [[1, "1900 kg/m3"]], "pond_surface": "6 m",
