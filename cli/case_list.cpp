@@ -1,11 +1,11 @@
 #include "cli/case_list.hpp"
 
-#include "fem/bench/cases.hpp"
-#include "fem/verify/cases.hpp"
-#include "mpm/bench/cases.hpp"
-#include "mpm/verify/cases.hpp"
-#include "section/verify/cases.hpp"
-#include "workflows/bench/dam.hpp"
+#include "bench/fem/cases.hpp"
+#include "verify/fem/cases.hpp"
+#include "bench/mpm/cases.hpp"
+#include "verify/mpm/cases.hpp"
+#include "verify/section/cases.hpp"
+#include "bench/chain/dam.hpp"
 
 namespace flowslide::cli {
 namespace {

@@ -23,5 +23,6 @@ void add_verify(CLI::App& app, Command& action);
 void add_bench(CLI::App& app, Command& action);
 void add_schema(CLI::App& app, Command& action);
 void add_docs(CLI::App& app, Command& action);
+void add_completion(CLI::App& app, Command& action);
 
 }  // namespace flowslide::cli

@@ -1,6 +1,8 @@
 #include "cli/command.hpp"
+#include "cli/terminal.hpp"
 #include "config/yaml.hpp"
 #include "core/check.hpp"
+#include "core/unreadable.hpp"
 #include "exporters/opensees_recorders.hpp"
 #include "importers/mesh_import.hpp"
 #include "model/field_store.hpp"
@@ -13,7 +15,7 @@
 #include "motion/record.hpp"
 #include "motion/write_motion.hpp"
 #include "section/boundary.hpp"
-#include "transfer/cbgeo_csv.hpp"
+#include "exporters/cbgeo_csv.hpp"
 
 #include <array>
 #include <filesystem>
@@ -140,6 +142,7 @@ void gmsh_to_mesh(const Options& o) {
 GroundMotion motion_of(const Options& o) {
   const Record record = read_record(o.in, o.format);
   print_notes(record.notes);
+  for (const std::string& warning : record.warnings) print_warning(warning);
   return record.motion;
 }
 
@@ -171,8 +174,10 @@ const std::vector<Conversion>& conversions() {
 }
 
 std::string kind_of(const fs::path& in) {
-  if (!fs::exists(in)) throw FileError(fmt::format("{}: there is no such file.", in.string()));
-  if (fs::is_directory(in)) return "folder";
+  std::error_code error;
+  if (fs::is_directory(in, error)) return "folder";
+  if (const std::string why = why_unreadable(in); !why.empty())
+    throw FileError(fmt::format("{}: {}", in.string(), why));
   std::array<char, 8> head{};
   std::ifstream(in, std::ios::binary).read(head.data(), head.size());
   constexpr std::string_view kHdf5 = "\x89HDF\r\n\x1a\n";

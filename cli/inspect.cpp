@@ -1,4 +1,6 @@
 #include "cli/command.hpp"
+#include "cli/inspect_run.hpp"
+#include "core/unreadable.hpp"
 #include "importers/recorder_text.hpp"
 #include "model/field_store.hpp"
 #include "model/history.hpp"
@@ -9,25 +11,22 @@
 #include "model/zone.hpp"
 #include "motion/measures.hpp"
 #include "workflows/engine/graph.hpp"
-#include "workflows/engine/record.hpp"
 #include "workflows/stages/stage_list.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace fs = std::filesystem;
 
 namespace flowslide::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json inspect_history(const fs::path& path) {
   const FemHistory history(path);
@@ -130,38 +129,17 @@ Json inspect_store(const fs::path& path) {
   return j;
 }
 
-Json inspect_run(const fs::path& folder) {
-  const auto lock = read_lock(folder);
-  if (!lock)
-    throw InputError(
-        fmt::format("{}: a folder without run.lock (no run of flowslide). Name one of "
-                    "its files.",
-                    folder.string()));
-  Json j = {{"kind", "run"},
-            {"workflow", lock->workflow},
-            {"file", lock->file},
-            {"complete", lock->complete && fs::exists(folder / "result.json")},
-            {"stages", Json::object()},
-            {"problems", Json::array()}};
-  for (const auto& [name, record] : lock->stages) {
-    j["stages"][name] = {{"uses", record.uses}, {"seconds", record.seconds}, {"key", record.key}};
-    const fs::path result = folder / "stages" / name / record.key.substr(0, 16);
-    if (const auto harm = damage(record, result)) j["problems"].push_back(name + ": " + *harm);
-  }
-  std::ifstream in(folder / "result.json");
-  if (const Json result = Json::parse(in, nullptr, false); result.is_object())
-    for (const auto& [key, value] : result.items())
-      if (value.is_number() && key != "schema") j["result"][key] = value;
-  return j;
-}
-
 Json inspect_workflow(const fs::path& path) {
   const YamlNode document = load_yaml(path);
   Json j = {{"kind", "workflow"}, {"problems", Json::array()}};
   try {
     const Workflow workflow = load_workflow(path, {}, all_stages());
     j["name"] = workflow.name;
-    for (const WorkflowStage& stage : workflow.stages) j["stages"][stage.name] = stage.type.name;
+    for (const WorkflowStage& stage : workflow.stages) {
+      j["stages"][stage.name] = stage.type.name;
+      for (const std::string& text : stage.warnings)
+        j["warnings"].push_back(fmt::format("{}: {}", stage.name, text));
+    }
   } catch (const Error& e) {
     j["problems"].push_back(e.what());
   }
@@ -183,8 +161,10 @@ Json inspect_recorder(const fs::path& path) {
 }
 
 Json inspect(const fs::path& path) {
-  if (!fs::exists(path)) throw FileError(fmt::format("{}: there is no such file.", path.string()));
-  if (fs::is_directory(path)) return inspect_run(path);
+  std::error_code error;
+  if (fs::is_directory(path, error)) return inspect_run(path);
+  if (const std::string why = why_unreadable(path); !why.empty())
+    throw FileError(fmt::format("{}: {}", path.string(), why));
   std::array<char, 8> head{};
   std::ifstream(path, std::ios::binary).read(head.data(), head.size());
   constexpr std::string_view kHdf5 = "\x89HDF\r\n\x1a\n";
@@ -193,16 +173,25 @@ Json inspect(const fs::path& path) {
   return inspect_recorder(path);
 }
 
+/// Text of a file from somewhere must not steer the terminal.
+std::string printable(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c); }, '?');
+  return text;
+}
+
 void print(const Json& json, const std::string& indent) {
-  for (const auto& [key, value] : json.items()) {
+  for (const auto& [name, value] : json.items()) {
+    const std::string key = printable(name);
     if (value.is_object()) {
       fmt::print("{}{}\n", indent, key);
       print(value, indent + "  ");
     } else if (value.is_array() && !value.empty() && value[0].is_string()) {
       fmt::print("{}{}\n", indent, key);
-      for (const Json& line : value) fmt::print("{}  {}\n", indent, line.get<std::string>());
+      for (const Json& line : value)
+        fmt::print("{}  {}\n", indent, printable(line.get<std::string>()));
     } else if (value.is_string()) {
-      fmt::print("{}{:<24} {}\n", indent, key, value.get<std::string>());
+      fmt::print("{}{:<24} {}\n", indent, key, printable(value.get<std::string>()));
     } else if (!value.is_array() || !value.empty()) {
       fmt::print("{}{:<24} {}\n", indent, key, value.dump());
     }

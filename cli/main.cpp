@@ -1,23 +1,71 @@
 #include "cli/command.hpp"
 #include "cli/short_waits.hpp"
+#include "config/yaml.hpp"
 #include "core/check.hpp"
 #include "workflows/engine/program_version.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
+#include <filesystem>
+#include <iostream>
 #include <new>
-#include <sstream>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <unistd.h>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 namespace {
 
-/// Every line of a message is an error of its own.
-void print_errors(const std::string& text) {
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);)
-    if (!line.empty()) fmt::print(stderr, "error: {}\n", line);
+constexpr int kNoResources = 4;  ///< exit code where memory, threads or a file are not to be had
+
+/// Every line of a message is an error of its own. Text that a file brought must not steer the
+/// terminal. Allocates nothing: it may be memory that is short.
+void print_errors(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    if (end > 0) {
+      std::fputs("error: ", stderr);
+      for (const char c : text.substr(0, end))
+        std::fputc(std::iscntrl(static_cast<unsigned char>(c)) && c != '\t' ? '?' : c, stderr);
+      std::fputc('\n', stderr);
+    }
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+}
+
+bool main_has_ended = false;
+
+/// Libraries that end the program themselves, as that of the threads does when it gets none, do so
+/// with a code that means something else here.
+void correct_exit_code() {
+  if (!main_has_ended) ::_exit(kNoResources);
+}
+
+void flush_output() {
+  std::cout.flush();
+  if (std::fflush(stdout) != 0 || std::ferror(stdout))
+    throw flowslide::FileError("standard output: cannot be written (the disk may be full)");
+}
+
+/// A first word that is no command, with the nearest that is one.
+void check_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  const std::string word = argv[1];
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), word) != names.end()) return;
+  const auto near = flowslide::nearest(word, names);
+  throw flowslide::InputError(fmt::format("there is no command '{}'. {}", word,
+                                          near
+                                              ? fmt::format("Did you mean 'flowslide {}'?", *near)
+                                              : fmt::format("Known: {}.", fmt::join(names, ", "))));
 }
 
 int run(int argc, char** argv) {
@@ -36,34 +84,49 @@ int run(int argc, char** argv) {
   flowslide::cli::add_bench(app, action);
   flowslide::cli::add_schema(app, action);
   flowslide::cli::add_docs(app, action);
+  flowslide::cli::add_completion(app, action);
+  check_command(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+    if (e.get_exit_code() == 0) {  // --help, --version
+      app.exit(e);
+      flush_output();
+      return 0;
+    }
     print_errors(fmt::format("{} ('flowslide --help' lists what there is)", e.what()));
     return 2;
   }
   const int code = action();
-  if (std::fflush(stdout) != 0 || std::ferror(stdout))
-    throw flowslide::FileError("standard output: cannot be written (the disk may be full)");
+  flush_output();
   return code;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  flowslide::cli::prefer_short_waits(argv);
+int run_and_report(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const flowslide::Error& e) {
     std::fflush(stdout);
     print_errors(e.what());
     return e.exit_code();
+  } catch (const std::filesystem::filesystem_error& e) {
+    print_errors(fmt::format("{}: {}", e.path1().string(), e.code().message()));
+    return 4;
+  } catch (const std::system_error& e) {
+    // the only other calls that throw these write to the terminal, a pipe or a file behind it
+    print_errors(fmt::format("standard output: cannot be written ({})", e.code().message()));
+    return 4;
   } catch (const std::bad_alloc&) {
     print_errors(
         "out of memory (the model is larger than this machine can hold). Use a coarser "
         "cell or spacing, or a larger machine.");
-    return 3;
+    return kNoResources;
+  } catch (const std::filesystem::filesystem_error& e) {
+    print_errors(fmt::format("{}: {}", e.path1().string(), e.code().message()));
+    return kNoResources;
+  } catch (const std::system_error& e) {
+    print_errors(fmt::format("{} (the system refused it)", e.what()));
+    return kNoResources;
   } catch (const std::exception& e) {
     print_errors(
         fmt::format("internal error: {} (a defect of the program, not of your input). "
@@ -71,4 +134,19 @@ int main(int argc, char** argv) {
                     e.what()));
     return 3;
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::atexit(correct_exit_code);
+  flowslide::cli::prefer_short_waits(argv);
+  int code = kNoResources;
+  try {
+    code = run_and_report(argc, argv);
+  } catch (const std::bad_alloc&) {
+    print_errors("out of memory");
+  }
+  main_has_ended = true;
+  return code;
 }

@@ -1,4 +1,5 @@
 #include "cli/command.hpp"
+#include "cli/terminal.hpp"
 #include "core/units.hpp"
 #include "motion/table.hpp"
 
@@ -29,6 +30,7 @@ int measure_records(Options options) {
   for (const std::string& file : options.files) {
     rows.push_back(measure_record(file, pga, options.format));
     for (const std::string& note : rows.back().notes) fmt::print(stderr, "note: {}\n", note);
+    for (const std::string& warning : rows.back().warnings) print_warning(warning);
   }
   if (options.json)
     fmt::print("{}\n", motion_json(rows));

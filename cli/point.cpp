@@ -1,7 +1,7 @@
 #include "cli/command.hpp"
 #include "config/yaml.hpp"
 #include "constitutive/point_config.hpp"
-#include "workflows/engine/record.hpp"
+#include "core/files.hpp"
 
 #include <memory>
 #include <string>
@@ -29,7 +29,7 @@ int drive_point(const Options& options) {
   const PointReport report = run_point(config);
   for (const auto& [name, text] : report.facts) fmt::print("{:<32} {}\n", name, text);
   if (!options.csv.empty()) {
-    write_atomically(options.csv, point_csv(report));
+    write_file(options.csv, point_csv(report));
     fmt::print("{:<32} {}\n", "written", options.csv);
   }
   return 0;

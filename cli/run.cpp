@@ -1,19 +1,20 @@
 #include "cli/command.hpp"
 #include "cli/signals.hpp"
 #include "cli/terminal.hpp"
-#include "workflows/engine/run_folder.hpp"
+#include "config/yaml.hpp"
+#include "core/check.hpp"
+#include "workflows/engine/lock.hpp"
+#include "workflows/engine/publish.hpp"
 #include "workflows/engine/runner.hpp"
 #include "workflows/stages/stage_list.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <memory>
 #include <sched.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace fs = std::filesystem;
 
@@ -23,7 +24,7 @@ namespace {
 struct RunArguments {
   std::string file, out;
   int threads = 0;
-  std::vector<std::string> overrides;
+  std::vector<std::string> overrides, redo, allowed_programs;
   bool dry_run = false;
 };
 
@@ -33,70 +34,104 @@ int available_threads() {
   return sched_getaffinity(0, sizeof set, &set) == 0 ? std::max(1, CPU_COUNT(&set)) : 1;
 }
 
-/// Input that is refused must not leave an earlier result.json that looks like its result.
-Workflow load_or_withdraw(const RunArguments& args, const fs::path& folder) {
-  try {
-    return load_workflow(args.file, args.overrides, all_stages());
-  } catch (const Error&) {
-    if (!args.dry_run && fs::exists(folder / kResultFile)) RunFolder(folder).withdraw();
-    throw;
+void check_redo(const RunArguments& args, const Workflow& workflow) {
+  std::vector<std::string> names;
+  for (const WorkflowStage& stage : workflow.stages) names.push_back(stage.name);
+  for (const std::string& wanted : args.redo) {
+    if (std::find(names.begin(), names.end(), wanted) != names.end()) continue;
+    const auto near = nearest(wanted, names);
+    throw InputError(fmt::format("--redo {}: there is no stage of this name in {}. {}", wanted,
+                                 args.file,
+                                 near ? fmt::format("Did you mean '{}'?", *near)
+                                      : fmt::format("Known: {}.", fmt::join(names, ", "))));
   }
 }
 
-void print_result(const fs::path& folder) {
-  std::ifstream in(folder / kResultFile);
-  const auto result = nlohmann::json::parse(in);
-  const auto line = [&](const char* key, const char* text, const char* unit) {
-    if (result[key].is_number())
-      fmt::print("{:<30} {:.4g}{}{}\n", text, result[key].get<double>(), *unit ? " " : "", unit);
+/// A runout of 0 says that nothing passed the toe; how far the front stopped before it says whether
+/// the toe is the right one.
+std::string no_runout(const nlohmann::ordered_json& result) {
+  const auto front = result.find("front_m"), toe = result.find("toe_m");
+  if (front == result.end() || toe == result.end() || !front->is_number() || !toe->is_number())
+    return "0 m";
+  return fmt::format("0 m (the front, at x = {:.4g} m, is {:.4g} m short of the toe)",
+                     front->get<double>(), toe->get<double>() - front->get<double>());
+}
+
+void print_result(const fs::path& folder, std::size_t warnings) {
+  const SealedJson file = read_sealed(folder / kResultFile);
+  if (!file.json)
+    throw FileError(
+        fmt::format("{}: cannot be read back ({})", (folder / kResultFile).string(), file.problem));
+  const nlohmann::ordered_json& result = *file.json;
+  const bool narrow = ::isatty(STDOUT_FILENO) == 1 && terminal_columns(STDOUT_FILENO) < 60;
+  const int label = narrow ? 24 : 30;
+  const auto line = [&](const std::string& key, const std::string& text, const char* unit) {
+    if (const auto at = result.find(key); at != result.end() && at->is_number())
+      fmt::print("{:<{}} {:.4g}{}{}\n", text, label, at->get<double>(), *unit ? " " : "", unit);
   };
-  line("runout_m", "runout", "m");
-  line("liquefaction_depth_pond_m", "liquefaction depth, pond", "m");
-  line("liquefaction_depth_crest_m", "liquefaction depth, crest", "m");
+  const auto runout = result.find("runout_m");
+  if (runout != result.end() && runout->is_number() && runout->get<double>() == 0.0)
+    fmt::print("{:<{}} {}\n", "runout", label, no_runout(result));
+  else
+    line("runout_m", "runout", "m");
+  constexpr std::string_view depth = "liquefaction_depth_";
+  for (const auto& [name, value] : result.items())
+    if (name.starts_with(depth) && name.ends_with("_m"))
+      line(name,
+           fmt::format("liquefaction depth, {}",
+                       name.substr(depth.size(), name.size() - depth.size() - 2)),
+           "m");
   line("transfer_time_s", "transfer at", "s");
   line("mass_error", "mass error", "");
   line("energy_error", "energy error", "");
-  fmt::print("{:<30} {}\n", "result", (folder / kResultFile).string());
+  if (warnings > 0) fmt::print("{:<{}} {}, see above\n", "warnings before use", label, warnings);
+  fmt::print("{:<{}} {}\n", "result", label, (folder / kResultFile).string());
 }
 
 int run(const RunArguments& args) {
   fs::path folder = args.out;
   if (folder.empty())
     folder = fs::path("runs") / workflow_name(load_yaml(args.file, args.overrides));
-  const Workflow workflow = load_or_withdraw(args, folder);
+  const Workflow workflow = load_workflow(args.file, args.overrides, all_stages());
+  check_redo(args, workflow);
   Display display(::isatty(STDOUT_FILENO) == 1);
+  for (const WorkflowStage& stage : workflow.stages)
+    display.events().warned(stage.name, stage.warnings);
   if (args.dry_run) {
-    for (const PlanLine& line : plan_workflow(workflow, folder))
+    for (const PlanLine& line : plan_workflow(workflow, folder)) {
+      for (const std::string& problem : line.decision.problems)
+        display.notice(fmt::format("{}: {}", line.stage, problem));
       display.plan(line.stage, line.decision);
+    }
     return 0;
   }
   const RunOptions options{.folder = folder,
                            .threads = args.threads > 0 ? args.threads : available_threads(),
                            .stop_requested = &stop_on_signal(),
-                           .redo = {}};
+                           .redo = args.redo,
+                           .allowed_programs = args.allowed_programs};
   try {
     run_workflow(workflow, options, display.events());
   } catch (...) {
     display.close();
     throw;
   }
-  print_result(folder);
+  print_result(folder, display.num_warnings());
   return 0;
 }
 
 /// The workflow of a run folder, with the stages that write reports done again and no other.
-int report(const std::string& folder) {
-  const auto lock = read_lock(folder);
+int report(const std::string& folder, const std::vector<std::string>& allowed_programs) {
+  const auto [lock, problem] = read_lock(folder);
   if (!lock)
-    throw InputError(
-        fmt::format("{}: no run folder (it has no run.lock that this program reads). "
-                    "Name the folder of a finished run.",
-                    folder));
+    throw InputError(fmt::format("{}: no run folder ({}). Name the folder of a finished run.",
+                                 folder, problem.empty() ? "it has no run.lock" : problem));
   const Workflow workflow = load_workflow(lock->file, lock->overrides, all_stages());
   RunOptions options{.folder = folder,
                      .threads = available_threads(),
                      .stop_requested = &stop_on_signal(),
-                     .redo = {}};
+                     .redo = {},
+                     .allowed_programs = allowed_programs};
   for (const PlanLine& line : plan_workflow(workflow, folder)) {
     const auto stage = std::find_if(workflow.stages.begin(), workflow.stages.end(),
                                     [&](const WorkflowStage& s) { return s.name == line.stage; });
@@ -115,8 +150,15 @@ int report(const std::string& folder) {
                     lock->file));
   Display display(::isatty(STDOUT_FILENO) == 1);
   run_workflow(workflow, options, display.events());
-  print_result(folder);
+  print_result(folder, display.num_warnings());
   return 0;
+}
+
+void add_allow_python(CLI::App& command, std::vector<std::string>& programs) {
+  command
+      .add_option("--allow-python", programs, "interpreter that the workflow may name in 'python'")
+      ->take_all()
+      ->allow_extra_args(false);
 }
 
 }  // namespace
@@ -132,6 +174,10 @@ void add_run(CLI::App& app, Command& action) {
   command->add_option("--set", args->overrides, "override a setting: stages.map.with.cell=2m")
       ->take_all()
       ->allow_extra_args(false);
+  command->add_option("--redo", args->redo, "stage to run again even if it is up to date")
+      ->take_all()
+      ->allow_extra_args(false);
+  add_allow_python(*command, args->allowed_programs);
   command->add_flag("--dry-run", args->dry_run, "only tell what would run, and why");
   command->callback([args, &action] { action = [args] { return run(*args); }; });
 }
@@ -146,7 +192,16 @@ void add_check(CLI::App& app, Command& action) {
   command->callback([args, &action] {
     action = [args] {
       const Workflow workflow = load_workflow(args->file, args->overrides, all_stages());
-      fmt::print("{}: {} stages, no problem found\n", args->file, workflow.stages.size());
+      std::size_t warnings = 0;
+      for (const WorkflowStage& stage : workflow.stages)
+        for (const std::string& text : stage.warnings) {
+          print_warning(fmt::format("{}: {}", stage.name, text));
+          ++warnings;
+        }
+      fmt::print("{}: {} stages, {}\n", args->file, workflow.stages.size(),
+                 warnings == 0   ? "no problem found"
+                 : warnings == 1 ? "1 warning"
+                                 : fmt::format("{} warnings", warnings));
       return 0;
     };
   });
@@ -154,9 +209,13 @@ void add_check(CLI::App& app, Command& action) {
 
 void add_report(CLI::App& app, Command& action) {
   auto folder = std::make_shared<std::string>();
+  auto programs = std::make_shared<std::vector<std::string>>();
   CLI::App* command = app.add_subcommand("report", "Build the report of a finished run again");
   command->add_option("folder", *folder, "run folder, DIR")->required();
-  command->callback([folder, &action] { action = [folder] { return report(*folder); }; });
+  add_allow_python(*command, *programs);
+  command->callback([folder, programs, &action] {
+    action = [folder, programs] { return report(*folder, *programs); };
+  });
 }
 
 }  // namespace flowslide::cli

@@ -1,5 +1,7 @@
 #include "cli/command.hpp"
-#include "workflows/engine/record.hpp"
+#include "core/files.hpp"
+#include "workflows/engine/result_folder.hpp"
+#include "workflows/engine/stage.hpp"
 #include "workflows/stages/stage_list.hpp"
 
 #include <filesystem>
@@ -85,11 +87,10 @@ void add_docs(CLI::App& app, Command& action) {
   command->add_option("folder", *folder, "folder of the pages, DIR")->required();
   command->callback([folder, &action] {
     action = [folder] {
-      std::error_code error;
-      std::filesystem::create_directories(*folder, error);
+      make_folders(*folder);
       for (const StageType& type : all_stages())
-        write_atomically(std::filesystem::path(*folder) / ("stage-" + type.name + ".md"),
-                         stage_page(type));
+        write_file(std::filesystem::path(*folder) / ("stage-" + type.name + ".md"),
+                   stage_page(type));
       return 0;
     };
   });

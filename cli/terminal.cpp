@@ -1,8 +1,12 @@
 #include "cli/terminal.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -10,22 +14,85 @@ namespace flowslide::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr std::size_t kColumns = 79;  // one less than 80: some terminals wrap at the last column
 constexpr int kNameWidth = 8;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+bool continues(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
+
+std::size_t width_of(std::string_view text) {
+  return text.size() - static_cast<std::size_t>(std::count_if(text.begin(), text.end(), continues));
+}
+
 /// Cuts at a column, never inside a UTF-8 character.
-std::string cut(std::string text) {
-  if (text.size() <= kColumns) return text;
-  std::size_t end = kColumns - 3;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+std::string cut(std::string text, std::size_t columns) {
+  if (width_of(text) <= columns) return text;
+  std::size_t end = 0;
+  for (std::size_t column = 0; end < text.size(); ++end)
+    if (!continues(text[end]) && ++column > columns - 3) break;
   return text.substr(0, end) + "...";
 }
 
 }  // namespace
+
+std::size_t terminal_columns(int file) {
+  constexpr std::size_t kLeast = 20, kUsual = 80, kMost = 10000;
+  winsize size{};
+  if (::ioctl(file, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
+    return std::max<std::size_t>(kLeast, size.ws_col);
+  const char* variable = std::getenv("COLUMNS");
+  const long columns = variable ? std::strtol(variable, nullptr, 10) : 0;
+  return columns > 0 ? std::clamp<std::size_t>(static_cast<std::size_t>(columns), kLeast, kMost)
+                     : kUsual;
+}
+
+std::string wrapped(std::string_view text, std::size_t columns, std::size_t indent) {
+  std::string out;
+  std::size_t column = 0;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    const std::string_view word = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (word.empty()) continue;
+    const std::size_t width = width_of(word);
+    const bool fits = column + 1 + width <= columns;
+    if (column > 0 && fits) {
+      out += ' ';
+      ++column;
+    } else if (column > 0) {
+      out += '\n' + std::string(indent, ' ');
+      column = indent;
+    }
+    out += word;
+    column += width;
+  }
+  return out;
+}
+
+void print_warning(std::string_view text) {
+  std::fflush(stdout);
+  const std::string line = fmt::format("warning: {}", text);
+  if (::isatty(STDERR_FILENO) == 1)
+    fmt::print(stderr, "{}\n", wrapped(line, terminal_columns(STDERR_FILENO) - 1, 9));
+  else
+    fmt::print(stderr, "{}\n", line);
+}
+
+// One column is kept free: some terminals wrap at the last one.
+Display::Display(bool terminal)
+    : terminal_(terminal), columns_(terminal ? terminal_columns(STDOUT_FILENO) - 1 : 79) {}
+
+void Display::warn(std::string_view stage, const std::vector<std::string>& warnings) {
+  for (const std::string& text : warnings) {
+    std::string line = fmt::format("{}: {}", stage, text);
+    if (warned_.count(line) > 0) continue;
+    close();
+    print_warning(line);
+    warned_.insert(std::move(line));
+  }
+}
 
 std::string clock_text(double seconds) {
   const auto total = static_cast<long>(std::lround(std::clamp(seconds, 0.0, 3.6e7)));
@@ -47,6 +114,10 @@ RunEvents Display::events() {
     progress(stage, fraction, text);
   };
   events.done = [this](std::string_view stage, double seconds) { done(stage, seconds); };
+  events.notice = [this](std::string_view text) { notice(text); };
+  events.warned = [this](std::string_view stage, const std::vector<std::string>& warnings) {
+    warn(stage, warnings);
+  };
   return events;
 }
 
@@ -54,7 +125,16 @@ void Display::plan(std::string_view stage, const Decision& decision) const {
   const char* verb = decision.action == Action::reuse       ? ""
                      : decision.action == Action::undecided ? "may run: "
                                                             : "runs: ";
-  fmt::print("{}\n", cut(fmt::format("{:<{}} {}{}", stage, kNameWidth, verb, decision.why)));
+  std::string why = decision.why;
+  const std::size_t n = decision.warnings.size();
+  if (n > 0 && decision.action == Action::reuse) {
+    const bool follow = std::any_of(decision.warnings.begin(), decision.warnings.end(),
+                                    [&](const std::string& text) {
+                                      return warned_.count(fmt::format("{}: {}", stage, text)) == 0;
+                                    });
+    why += fmt::format(", {} warning{}{}", n, n == 1 ? "" : "s", follow ? ":" : " (above)");
+  }
+  fmt::print("{}\n", cut(fmt::format("{:<{}} {}{}", stage, kNameWidth, verb, why), columns_));
 }
 
 void Display::progress(std::string_view stage, double fraction, std::string_view text) {
@@ -72,17 +152,21 @@ void Display::progress(std::string_view stage, double fraction, std::string_view
     if (tenth <= last_tenth_ || tenth == 10) return;
     last_tenth_ = tenth;
     fmt::print("{}\n", cut(fmt::format("{:<{}} {:>3} %  ETA {:>5}  {}", stage, kNameWidth, percent,
-                                       eta, text)));
+                                       eta, text),
+                           columns_));
     std::fflush(stdout);
     return;
   }
   if (bar_on_line_ && seconds_since(drawn_) < 0.1) return;
   drawn_ = Clock::now();
-  constexpr int kBar = 16;
-  const int full = static_cast<int>(fraction * kBar);
-  fmt::print("\r\033[K{}",
-             cut(fmt::format("{:<{}} [{:#<{}}{:-<{}}] {:>3} %  ETA {:>5}  {}", stage, kNameWidth,
-                             "", full, "", kBar - full, percent, eta, text)));
+  // A narrow terminal loses the bar before it loses the state of the run.
+  const int bar = columns_ >= 70 ? 16 : columns_ >= 56 ? 8 : 0;
+  const int full = static_cast<int>(fraction * bar);
+  const std::string drawn =
+      bar > 0 ? fmt::format("[{:#<{}}{:-<{}}] ", "", full, "", bar - full) : "";
+  fmt::print("\r\033[K{}", cut(fmt::format("{:<{}} {}{:>3} %  ETA {:>5}  {}", stage, kNameWidth,
+                                           drawn, percent, eta, text),
+                               columns_));
   std::fflush(stdout);
   bar_on_line_ = true;
 }
@@ -92,6 +176,15 @@ void Display::done(std::string_view stage, double seconds) {
   bar_on_line_ = false;
   fmt::print("{:<{}} done in {:.1f} s\n", stage, kNameWidth, seconds);
   std::fflush(stdout);
+}
+
+void Display::notice(std::string_view text) {
+  close();
+  std::string line(text);
+  // Names come from files, which must not steer the terminal.
+  std::replace_if(
+      line.begin(), line.end(), [](unsigned char c) { return std::iscntrl(c); }, '?');
+  fmt::print("note: {}\n", line);
 }
 
 void Display::close() {

@@ -2,29 +2,48 @@
 #include "workflows/engine/runner.hpp"
 
 #include <chrono>
+#include <cstddef>
+#include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace flowslide::cli {
 
 /// "0:07", "12:30", "3:05:00"
 std::string clock_text(double seconds);
 
-/// Shows a run on stdout: a bar that is redrawn on a terminal, a line at every tenth elsewhere.
-/// No line is longer than 80 columns.
+/// Columns of the terminal behind a file descriptor, else of COLUMNS, else 80; at least 20.
+std::size_t terminal_columns(int file);
+
+/// Breaks a text at blanks into lines of at most so many columns; lines after the first are
+/// indented. A word that is longer stays whole.
+std::string wrapped(std::string_view text, std::size_t columns, std::size_t indent);
+
+/// "warning: ..." on stderr, wrapped to its terminal; elsewhere one line each, for scripts.
+void print_warning(std::string_view text);
+
+/// Shows a run on stdout: a bar that is redrawn on a terminal, a line at every tenth elsewhere, cut
+/// to the width of the terminal. Warnings go to stderr, each once.
 class Display {
  public:
-  explicit Display(bool terminal) : terminal_(terminal) {}
+  explicit Display(bool terminal);
   [[nodiscard]] RunEvents events();
   void plan(std::string_view stage, const Decision& decision) const;
+  /// Something about the run folder, in full, however long.
+  void notice(std::string_view text);
   /// Ends a bar that is still on the line.
   void close();
+  [[nodiscard]] std::size_t num_warnings() const { return warned_.size(); }
 
  private:
+  void warn(std::string_view stage, const std::vector<std::string>& warnings);
   void progress(std::string_view stage, double fraction, std::string_view text);
   void done(std::string_view stage, double seconds);
 
   bool terminal_;
+  std::size_t columns_;  ///< that a line may have
+  std::set<std::string> warned_;
   bool bar_on_line_ = false;
   std::chrono::steady_clock::time_point start_, drawn_;
   double first_fraction_ = -1.0;  ///< where this session began; negative before the first report

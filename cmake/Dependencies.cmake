@@ -10,4 +10,11 @@ find_package(ZLIB REQUIRED)
 # Debian may carry the serial and the MPI build side by side.
 set(HDF5_PREFER_PARALLEL OFF)
 find_package(HDF5 REQUIRED COMPONENTS C)
-find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel IOXML)
+
+# VTK writes the files for ParaView where it is installed, model/vtk_xml.cpp where it is not.
+set(FLOWSLIDE_VTK AUTO CACHE STRING "Write files for ParaView with VTK: ON, OFF or AUTO (docs/adr/0013)")
+if(FLOWSLIDE_VTK STREQUAL "AUTO")
+  find_package(VTK 9.1 QUIET COMPONENTS CommonCore CommonDataModel IOXML)
+elseif(FLOWSLIDE_VTK)
+  find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel IOXML)
+endif()

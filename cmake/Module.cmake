@@ -6,7 +6,19 @@ function(add_module name)
   add_library(flowslide_${name} STATIC ${M_SOURCES})
   add_library(flowslide::${name} ALIAS flowslide_${name})
   target_link_libraries(flowslide_${name} PUBLIC flowslide_options ${M_LINKS}
-                        PRIVATE flowslide_warnings ${M_PRIVATE_LINKS})
+                        PRIVATE $<BUILD_INTERFACE:flowslide_warnings> ${M_PRIVATE_LINKS})
+endfunction()
+
+# add_rooms(name room ...)
+# The rooms of a large module, lower ones first: each is a module name_room in the folder name/room.
+# flowslide::name stands for all of them.
+function(add_rooms name)
+  add_library(flowslide_${name} INTERFACE)
+  add_library(flowslide::${name} ALIAS flowslide_${name})
+  foreach(room IN LISTS ARGN)
+    add_subdirectory(${room})
+    target_link_libraries(flowslide_${name} INTERFACE flowslide::${name}_${room})
+  endforeach()
 endfunction()
 
 # add_module_tests(name SOURCES a.test.cpp ... [LINKS ...])

@@ -1,7 +1,7 @@
-#include "config/schema.hpp"
-#include "core/hash.hpp"
+#include "config/canonical.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -37,7 +37,7 @@ std::string numbers_text(std::span<const double> values, Dim dim) {
 
 class CanonicalText final : public FieldVisitor {
  public:
-  [[nodiscard]] const std::string& lines() const { return lines_; }
+  [[nodiscard]] CanonicalSettings take() { return {std::move(lines_), std::move(files_)}; }
 
   void quantity(std::string_view key, double& value, Dim dim, Range, std::string_view) override {
     line(key, number(value, dim));
@@ -136,7 +136,8 @@ class CanonicalText final : public FieldVisitor {
   }
   void hash_line(std::string_view key, const InputFile& file) {
     try {
-      line(key, "sha256:" + sha256_file(file.path));
+      files_.push_back(hash_file(file.path));
+      line(key, "sha256:" + files_.back().sha256);
     } catch (const FileError& e) {
       throw FileError(fmt::format("{}: {}", path_of(key), e.what()));
     }
@@ -144,14 +145,19 @@ class CanonicalText final : public FieldVisitor {
 
   std::vector<std::string> path_;
   std::string lines_;
+  std::vector<HashedFile> files_;
 };
 
 }  // namespace
 
-std::string detail::canonical_fields(const std::function<void(FieldVisitor&)>& describe) {
+CanonicalSettings detail::canonical_settings(const std::function<void(FieldVisitor&)>& describe) {
   CanonicalText text;
   describe(text);
-  return text.lines();
+  return text.take();
+}
+
+std::string detail::canonical_fields(const std::function<void(FieldVisitor&)>& describe) {
+  return canonical_settings(describe).text;
 }
 
 }  // namespace flowslide

@@ -1,6 +1,7 @@
 #include "config/read_value.hpp"
 
 #include "config/range_text.hpp"
+#include "core/odd_characters.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -54,6 +55,9 @@ std::string_view unit_of(std::string_view text) {
 }
 
 std::string character_hint(std::string_view text) {
+  if (text.size() > 1 && (text.front() == '"' || text.front() == '\''))
+    return " (it is in quotes twice) write the number with its unit, in one pair of quotes or none";
+  if (const std::string odd = odd_characters(text); !odd.empty()) return " (it " + odd + ")";
   const bool ascii = std::all_of(text.begin(), text.end(),
                                  [](char c) { return static_cast<unsigned char>(c) < 0x80; });
   return ascii ? ""

@@ -19,18 +19,24 @@ std::string join(std::string_view path, std::string_view key) {
   return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
 }
 
-InputError error_at(const Where& where, std::string_view path, std::string_view text) {
-  if (path.empty()) return InputError(fmt::format("{}: {}", where.text(), text));
-  return InputError(fmt::format("{}: {}: {}", where.text(), path, text));
+InputError error_at(const Place& place, std::string_view path, std::string_view text) {
+  const std::string where = place.where().text();
+  if (path.empty()) return InputError(fmt::format("{}: {}", where, text));
+  return InputError(fmt::format("{}: {}: {}", where, path, text));
 }
 
-void set_paths(const Tree& node, const std::string& path,
+std::string Path::text() const { return join(above ? above->text() : "", key); }
+
+void set_paths(const Tree& node, const std::shared_ptr<const Path>& path,
                const std::shared_ptr<const std::filesystem::path>& folder) {
   node->path = path;
   node->folder = folder;
+  const auto below = [&](std::string key) {
+    return std::make_shared<const Path>(Path{path, std::move(key)});
+  };
   for (std::size_t i = 0; i < node->items.size(); ++i)
-    set_paths(node->items[i], join(path, std::to_string(i)), folder);
-  for (const auto& [key, child] : node->entries) set_paths(child, join(path, key), folder);
+    set_paths(node->items[i], below(std::to_string(i)), folder);
+  for (const auto& [key, child] : node->entries) set_paths(child, below(key), folder);
 }
 
 }  // namespace yaml
@@ -56,9 +62,9 @@ void YamlNode::Data::erase(const std::string& key) {
 }
 
 YamlNode::Kind YamlNode::kind() const { return data_->kind; }
-const Where& YamlNode::where() const { return data_->where; }
-const Where& YamlNode::key_where() const { return data_->key_where; }
-const std::string& YamlNode::path() const { return data_->path; }
+Where YamlNode::where() const { return data_->where.where(); }
+Where YamlNode::key_where() const { return data_->key_where.where(); }
+std::string YamlNode::path() const { return data_->path_text(); }
 const std::filesystem::path& YamlNode::folder() const { return *data_->folder; }
 
 const std::string& YamlNode::scalar() const {
@@ -98,16 +104,16 @@ std::optional<YamlNode> YamlNode::find(std::string_view key) const {
 }
 
 InputError YamlNode::error(std::string_view text) const {
-  if (data_->reference.empty()) return yaml::error_at(where(), path(), text);
-  return yaml::error_at(where(), path(),
+  if (data_->reference.empty()) return yaml::error_at(data_->where, path(), text);
+  return yaml::error_at(data_->where, path(),
                         fmt::format("{} (the value comes from {})", text, data_->reference));
 }
 
 YamlNode load_yaml(const std::filesystem::path& path, std::span<const std::string> overrides) {
-  const yaml::Source source{path.string()};
+  const yaml::Source source(path.string());
   const yaml::Tree root = yaml::parse(yaml::clean_text(yaml::read_text(path), source), source);
   for (const std::string& option : overrides) yaml::apply_override(root, option);
-  yaml::set_paths(root, "", std::make_shared<std::filesystem::path>(path.parent_path()));
+  yaml::set_paths(root, nullptr, std::make_shared<std::filesystem::path>(path.parent_path()));
   yaml::resolve_references(root);
   return YamlNode(root);
 }

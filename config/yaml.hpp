@@ -27,10 +27,10 @@ class YamlNode {
  public:
   enum class Kind { scalar, list, map, null };
   [[nodiscard]] Kind kind() const;
-  [[nodiscard]] const Where& where() const;
+  [[nodiscard]] Where where() const;
   /// Place of the key of a map entry; of anything else the place itself.
-  [[nodiscard]] const Where& key_where() const;
-  [[nodiscard]] const std::string& path() const;  ///< "stages.map.with.seed"
+  [[nodiscard]] Where key_where() const;
+  [[nodiscard]] std::string path() const;  ///< "stages.map.with.seed"
   /// Folder of the file, against which relative paths in it are resolved; empty: working directory.
   [[nodiscard]] const std::filesystem::path& folder() const;
   [[nodiscard]] const std::string& scalar() const;       ///< throws InputError if not a scalar

@@ -12,12 +12,30 @@
 
 /// The document behind YamlNode, as the files yaml*.cpp build it.
 namespace flowslide {
+namespace yaml {
+
+/// A Where whose name is shared by all nodes of a document.
+struct Place {
+  std::shared_ptr<const std::string> file;
+  int line = 0, column = 0;
+  [[nodiscard]] Where where() const { return {file ? *file : "", line, column}; }
+};
+
+/// The way from the top to a node. The text is made when it is asked for: that of every node of a
+/// document with long keys would be the square of the document.
+struct Path {
+  std::shared_ptr<const Path> above;  ///< null: at the top
+  std::string key;
+  [[nodiscard]] std::string text() const;
+};
+
+}  // namespace yaml
 
 struct YamlNode::Data {
   Kind kind = Kind::null;
-  Where where;
-  Where key_where;
-  std::string path;
+  yaml::Place where;
+  yaml::Place key_where;
+  std::shared_ptr<const yaml::Path> path;  ///< null: the document itself
   std::string scalar;
   std::string reference;  ///< "${path}" if the scalar was taken from there
   std::shared_ptr<const std::filesystem::path> folder;
@@ -25,6 +43,7 @@ struct YamlNode::Data {
   std::vector<std::pair<std::string, std::shared_ptr<Data>>> entries;
   std::map<std::string, std::size_t, std::less<>> index;  ///< of the keys of `entries`
 
+  [[nodiscard]] std::string path_text() const { return path ? path->text() : ""; }
   [[nodiscard]] std::shared_ptr<Data> find(std::string_view key) const;
   void append(const std::string& key, std::shared_ptr<Data> child);
   void erase(const std::string& key);
@@ -42,10 +61,12 @@ std::string join(std::string_view path, std::string_view key);
 
 /// Where a text comes from: a file, whose places have lines, or a --set option.
 struct Source {
-  std::string name;
-  bool has_lines = true;
-  [[nodiscard]] Where at(int line, int column) const;
-  [[nodiscard]] Where at_byte(std::string_view text, std::size_t byte) const;
+  explicit Source(std::string text, bool lines = true)
+      : name(std::make_shared<std::string>(std::move(text))), has_lines(lines) {}
+  std::shared_ptr<const std::string> name;
+  bool has_lines;
+  [[nodiscard]] Place at(int line, int column) const;
+  [[nodiscard]] Place at_byte(std::string_view text, std::size_t byte) const;
 };
 
 /// Content of a file. Throws FileError; InputError if it is too large for a settings file.
@@ -65,11 +86,11 @@ void apply_override(const Tree& root, std::string_view option);
 void resolve_references(const Tree& root);
 
 /// Sets path and folder of every node.
-void set_paths(const Tree& node, const std::string& path,
+void set_paths(const Tree& node, const std::shared_ptr<const Path>& path,
                const std::shared_ptr<const std::filesystem::path>& folder);
 
 /// "file:line:column: path: text"
-InputError error_at(const Where& where, std::string_view path, std::string_view text);
+InputError error_at(const Place& place, std::string_view path, std::string_view text);
 
 }  // namespace yaml
 }  // namespace flowslide

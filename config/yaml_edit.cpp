@@ -44,7 +44,7 @@ std::string no_key(std::string_view path, const YamlNode::Data& scalar, const st
 }
 
 /// One step down a path for writing: creates what is missing.
-Tree step(const Tree& node, const std::string& path, const std::string& key, const Where& where) {
+Tree step(const Tree& node, const std::string& path, const std::string& key, const Place& where) {
   if (node->kind == Kind::scalar) throw error_at(where, "", no_key(path, *node, key));
   if (node->kind == Kind::list) {
     if (Tree child = item(*node, key)) return child;
@@ -66,17 +66,26 @@ void remove(const Tree& root, const std::vector<std::string>& keys) {
   if (node) node->erase(keys.back());
 }
 
+/// As much of an option as a message needs to tell which one it is.
+std::string shortened(std::string_view option) {
+  constexpr std::size_t kShown = 200;
+  if (option.size() <= kShown) return std::string(option);
+  std::size_t end = kShown;
+  while (end > 0 && (static_cast<unsigned char>(option[end]) & 0xC0U) == 0x80U) --end;
+  return std::string(option.substr(0, end)) + "...";
+}
+
 bool is_reference(std::string_view text) { return text.find("${") != std::string_view::npos; }
 
 Tree find_target(const Tree& root, const YamlNode::Data& from, const std::string& target) {
   const auto fail = [&](const std::string& text) {
-    return error_at(from.where, from.path, fmt::format("'{}': {}", from.scalar, text));
+    return error_at(from.where, from.path_text(), fmt::format("'{}': {}", from.scalar, text));
   };
   const auto keys = split_path(target);
   if (!is_path(keys)) throw fail("is not a path (keys are separated by single dots)");
   Tree node = root;
   for (const std::string& key : keys) {
-    const std::string path = node->path.empty() ? "the file" : node->path;
+    const std::string path = node->path ? node->path_text() : "the file";
     if (node->kind == Kind::scalar) throw fail(no_key(path, *node, key));
     Tree child = node->kind == Kind::list ? item(*node, key) : node->find(key);
     if (!child && node->kind == Kind::list) throw fail(no_item(path, *node, key));
@@ -92,7 +101,7 @@ Tree find_target(const Tree& root, const YamlNode::Data& from, const std::string
     node = child;
   }
   if (node->kind != Kind::scalar)
-    throw fail(fmt::format("{} is {} (only a single value can be referred to)", node->path,
+    throw fail(fmt::format("{} is {} (only a single value can be referred to)", node->path_text(),
                            name(node->kind)));
   return node;
 }
@@ -103,7 +112,7 @@ void resolve(const Tree& root, YamlNode::Data& node, std::vector<const YamlNode:
   if (!is_reference(node.scalar)) return;
   const std::string written = node.scalar;
   if (!written.starts_with("${") || written.find('}') != written.size() - 1)
-    throw error_at(node.where, node.path,
+    throw error_at(node.where, node.path_text(),
                    fmt::format("'{}' holds a reference within text (a reference is the whole "
                                "value) write '${{path.to.key}}' alone",
                                written));
@@ -111,13 +120,13 @@ void resolve(const Tree& root, YamlNode::Data& node, std::vector<const YamlNode:
   const Tree target = find_target(root, node, written.substr(2, written.size() - 3));
   if (std::find(chain.begin(), chain.end(), target.get()) != chain.end()) {
     std::string circle;
-    for (const auto* link : chain) circle += link->path + " -> ";
-    throw error_at(node.where, node.path,
+    for (const auto* link : chain) circle += link->path_text() + " -> ";
+    throw error_at(node.where, node.path_text(),
                    fmt::format("'{}' refers to itself ({}{}) give one of them a value", written,
-                               circle, target->path));
+                               circle, target->path_text()));
   }
   if (chain.size() > kMaxChain)
-    throw error_at(node.where, node.path,
+    throw error_at(node.where, node.path_text(),
                    fmt::format("'{}' ends a chain of more than {} references (hard to follow) "
                                "refer to the value itself",
                                written, kMaxChain));
@@ -137,7 +146,7 @@ void resolve_below(const Tree& root, const Tree& node) {
 }  // namespace
 
 void apply_override(const Tree& root, std::string_view option) {
-  const Source source{fmt::format("--set {}", option), false};
+  const Source source(fmt::format("--set {}", shortened(option)), false);
   const auto equals = option.find('=');
   const auto keys = split_path(option.substr(0, equals));
   if (equals == std::string_view::npos || !is_path(keys))
@@ -155,7 +164,7 @@ void apply_override(const Tree& root, std::string_view option) {
     node = step(node, path.empty() ? "the file" : path, key, source.at(0, 0));
     path = join(path, key);
   }
-  const Where key_where = node->key_where;
+  const Place key_where = node->key_where;
   *node = *value;
   node->key_where = key_where;
 }

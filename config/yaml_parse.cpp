@@ -67,10 +67,10 @@ class TreeBuilder final : public YAML::EventHandler {
     Tree node;
     bool has_key = false;
     std::string key = {};
-    Where key_where = {};
+    Place key_where = {};
   };
 
-  [[nodiscard]] Where at(const YAML::Mark& mark) const {
+  [[nodiscard]] Place at(const YAML::Mark& mark) const {
     return source_.at(mark.line + 1, mark.column + 1);
   }
   [[nodiscard]] bool expects_key() const {
@@ -128,14 +128,14 @@ class TreeBuilder final : public YAML::EventHandler {
                                quote, quote));
   }
 
-  void take_key(const std::string& key, const Where& where) {
+  void take_key(const std::string& key, const Place& where) {
     Level& level = stack_.back();
     if (key.empty())
       throw error_at(where, path(), "empty key (every key needs a name) write 'name: value'");
     if (const Tree first = level.node->find(key)) {
       throw error_at(where, path(),
                      fmt::format("key '{}' is given twice (first at {}) remove one of them", key,
-                                 first->key_where.text()));
+                                 first->key_where.where().text()));
     }
     level.has_key = true;
     level.key = key;
@@ -206,7 +206,7 @@ Tree parse(const std::string& text, const Source& source) {
     while (parser.HandleNextDocument(builder)) {
     }
   } catch (const YAML::Exception& e) {
-    const Where where =
+    const Place where =
         e.mark.is_null() ? source.at(1, 1) : source.at(e.mark.line + 1, e.mark.column + 1);
     throw error_at(where, "", fmt::format("YAML syntax: {}{}", e.msg, hint(e.msg)));
   }

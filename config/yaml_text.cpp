@@ -1,4 +1,7 @@
 #include "config/yaml_data.hpp"
+#include "core/unreadable.hpp"
+
+#include "core/files.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +15,8 @@
 namespace flowslide::yaml {
 namespace {
 
-constexpr std::size_t kMaxBytes = 16u << 20u;
+/// The tree of a text takes about 60 times its size in memory, and 4 s for each MiB.
+constexpr std::size_t kMaxBytes = 2u << 20u;
 
 /// Bytes of the UTF-8 character at the start of `s`; 0 if there is none (RFC 3629).
 std::size_t utf8_length(std::string_view s) {
@@ -51,13 +55,23 @@ std::string problem_of(unsigned char byte) {
   }
 }
 
-}  // namespace
+constexpr std::string_view kNonBreaking = "\xC2\xA0";
 
-Where Source::at(int line, int column) const {
-  return has_lines ? Where{name, line, column} : Where{name};
+/// Whether blanks at the end of `before` would be indentation, or part a key or a sign of a list
+/// from what follows.
+bool is_structure(std::string_view before) {
+  const std::size_t last = before.find_last_not_of(' ');
+  if (last == std::string_view::npos) return true;
+  return std::string_view("\n:-,[{").find(before[last]) != std::string_view::npos;
 }
 
-Where Source::at_byte(std::string_view text, std::size_t byte) const {
+}  // namespace
+
+Place Source::at(int line, int column) const {
+  return has_lines ? Place{name, line, column} : Place{name};
+}
+
+Place Source::at_byte(std::string_view text, std::size_t byte) const {
   const std::string_view before = text.substr(0, byte);
   const auto line = 1 + std::count(before.begin(), before.end(), '\n');
   const auto newline = before.rfind('\n');
@@ -70,6 +84,8 @@ std::string read_text(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path, ignored))
     throw FileError(fmt::format("{}: is a folder (a YAML file is expected) name the file in it",
                                 path.string()));
+  if (const std::string why = why_unreadable(path); !why.empty())
+    throw FileError(fmt::format("{}: {}", path.string(), why));
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   if (!in)
@@ -94,7 +110,7 @@ std::string clean_text(std::string_view bytes, const Source& source) {
       bytes.starts_with("\0\0\xFE\xFF"sv))
     throw InputError(fmt::format(
         "{}: is UTF-16 or UTF-32 text (UTF-8 is expected) save it as UTF-8 in your editor",
-        source.at(1, 1).text()));
+        source.at(1, 1).where().text()));
   if (bytes.starts_with("\xEF\xBB\xBF"sv)) bytes.remove_prefix(3);
 
   std::string text;
@@ -113,6 +129,10 @@ std::string clean_text(std::string_view bytes, const Source& source) {
                      fmt::format("byte 0x{:02x} is not UTF-8 text (the file may be in Latin-1) "
                                  "save it as UTF-8",
                                  c));
+    if (bytes.substr(i, length) == kNonBreaking && is_structure(text))
+      throw error_at(source.at_byte(bytes, i), "",
+                     "non-breaking space where YAML needs a blank (it comes from a word processor "
+                     "or a web page, and looks like one) replace it by a blank");
     text.append(bytes.substr(i, length));
     i += length;
   }

@@ -2,7 +2,9 @@
 #include "config/schema.hpp"
 #include "constitutive/concept.hpp"
 #include "constitutive/gap.hpp"
+#include "constitutive/shaking.hpp"
 #include "constitutive/softening.hpp"
+#include "core/elementary.hpp"
 
 #include <cmath>
 #include <limits>
@@ -40,8 +42,8 @@ struct DruckerPrager {
     double alpha, k;
     static Cone fit(double cohesion, double phi, double beta) {
       const double flat = std::sqrt(1.0 - beta * beta / 3.0);
-      const double alpha = std::sin(phi) / (flat + beta * std::sin(phi) / 3.0);
-      return {alpha, cohesion * std::cos(phi) * (1.0 - alpha * beta / 3.0) / flat};
+      const double alpha = sin(phi) / (flat + beta * sin(phi) / 3.0);
+      return {alpha, cohesion * cos(phi) * (1.0 - alpha * beta / 3.0) / flat};
     }
   };
   struct Constants {
@@ -57,7 +59,7 @@ struct DruckerPrager {
     return Elasticity::from_young(p.youngs_modulus, p.poisson_ratio);
   }
   static Constants constants(const Params& p, double softening_scale) {
-    const double sin_psi = std::sin(p.dilation_angle);
+    const double sin_psi = sin(p.dilation_angle);
     const double beta = sin_psi / std::sqrt(1.0 + sin_psi * sin_psi / 3.0);
     const double c_residual = p.residual_cohesion.value_or(p.cohesion);
     const Cone peak = Cone::fit(p.cohesion, p.friction_angle, beta);
@@ -73,6 +75,9 @@ struct DruckerPrager {
             p.tension_cutoff.value_or(std::numeric_limits<double>::infinity())};
   }
   static State initial_state(const Params&) { return {}; }
+  static ShearStrength shear_strength(const Params& p) {
+    return {p.cohesion * cos(p.friction_angle), sin(p.friction_angle)};
+  }
   template <class T>
   static T present_strength(const Constants& c, const StateOf<T>& s) noexcept {
     return c.cohesion + c.cohesion_change * c.softening.degree(s.plastic_strain);

@@ -2,6 +2,7 @@
 #include "constitutive/concept.hpp"
 #include "constitutive/gap.hpp"
 #include "constitutive/softening.hpp"
+#include "core/elementary.hpp"
 
 #include <cmath>
 
@@ -25,10 +26,10 @@ struct EquationOfState {
     if (exponent == 1.0) return x;
     if constexpr (std::is_same_v<T, Pack>) {
       T r;
-      for (int i = 0; i < Pack::lanes; ++i) r.v[i] = std::pow(x.v[i], exponent);
+      for (int i = 0; i < Pack::lanes; ++i) r.v[i] = pow(x.v[i], exponent);
       return r;
     } else {
-      return std::pow(x, exponent);
+      return pow(x, exponent);
     }
   }
 };

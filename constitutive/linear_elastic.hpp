@@ -1,6 +1,7 @@
 #pragma once
 #include "config/schema.hpp"
 #include "constitutive/concept.hpp"
+#include "constitutive/shaking.hpp"
 
 namespace flowslide {
 
@@ -26,6 +27,7 @@ struct LinearElastic {
     return {elasticity(p)};
   }
   static State initial_state(const Params&) { return {}; }
+  static ShearStrength shear_strength(const Params&) { return {}; }
 
   template <int Dim, class T>
   [[nodiscard]] static StressUpdate<StateOf<T>, Dim, T> update(

@@ -137,43 +137,13 @@ void check(const NorSand::Params& p) {
       p.csl_slope * p.dilatancy, p.critical_ratio);
 }
 
+void check(const PM4Sand::Params& p) { (void)PM4Sand::constants(p); }
+
 void check(const MuI::Params& p) {
   validate(p.mu_limit >= p.mu_static,
            "mu_i: mu_limit {} is below mu_static {} (faster flow would be weaker, which has no "
            "unique answer) swap them?",
            p.mu_limit, p.mu_static);
-}
-
-void describe_laws(FieldVisitor& v, MaterialSettings& m) {
-  AllLaws::each([&]<class M>() { v.group(M::name, m.of<M>(), Schema<typename M::Params>::doc); });
-}
-
-int count_given(const MaterialSettings& m) {
-  int given = 0;
-  AllLaws::each([&]<class M>() { given += int{m.of<M>().has_value()}; });
-  return given;
-}
-
-std::string law_names() {
-  std::string names;
-  AllLaws::each([&]<class M>() {
-    names += names.empty() ? "" : ", ";
-    names += M::name;
-  });
-  return names;
-}
-
-AnyMaterial make_material(const MaterialSettings& m, std::string_view where) {
-  const int given = count_given(m);
-  AnyMaterial chosen;
-  AllLaws::each([&]<class M>() {
-    if (m.of<M>()) chosen = Material<M>{*m.of<M>()};
-  });
-  validate(given == 1,
-           "material '{}' has {} constitutive laws (exactly one is needed) give one of {}", where,
-           given, law_names());
-  std::visit([](const auto& law) { check_relations(law.params); }, chosen);
-  return chosen;
 }
 
 LawParameters to_parameters(const AnyMaterial& material) {
@@ -192,7 +162,7 @@ LawParameters to_parameters(const AnyMaterial& material) {
 
 AnyMaterial from_parameters(std::string_view law, const std::map<std::string, double>& parameters) {
   std::optional<AnyMaterial> result;
-  AllLaws::each([&]<class M>() { read_law<M>(law, parameters, result); });
+  FlowLaws::each([&]<class M>() { read_law<M>(law, parameters, result); });
   validate(result.has_value(), "unknown constitutive law '{}'", law);
   return *result;
 }

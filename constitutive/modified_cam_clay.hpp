@@ -2,6 +2,7 @@
 #include "config/schema.hpp"
 #include "constitutive/concept.hpp"
 #include "constitutive/gap.hpp"
+#include "core/elementary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -78,7 +79,7 @@ struct ModifiedCamClay {
     double e = 0.0, g = 0.0;  // plastic volumetric strain (compression > 0), multiplier x p_c
     const double drag = 6.0 * shear / c.m2 / pc0;
     for (int i = 0; i < 40; ++i) {
-      const double p = p0 * std::exp(-e / c.kappa), pc = pc0 * std::exp(e * c.hardening);
+      const double p = p0 * exp(-e / c.kappa), pc = pc0 * exp(e * c.hardening);
       const double q = q0 / (1.0 + drag * g);
       const double flow = e - g * (2.0 * p - pc) / pc0;
       const double f = (q * q / c.m2 + p * (p - pc)) * scale;
@@ -139,8 +140,8 @@ struct ModifiedCamClay {
       j2_trial += s[i] * s[i];
     }
     const double q_trial = std::sqrt(3.0 * j2_trial);
-    Point x{p_old * std::exp(-step.volumetric / c.kappa), q_trial, r.state.preconsolidation};
-    const double opened = std::max(0.0, c.kappa * std::log(c.minimum / x.p));
+    Point x{p_old * exp(-step.volumetric / c.kappa), q_trial, r.state.preconsolidation};
+    const double opened = std::max(0.0, c.kappa * log(c.minimum / x.p));
     x.p = std::max(x.p, c.minimum);
     x.p_c = std::max(x.p_c, 2.0 * c.minimum);
     if (!(std::abs(step.volumetric) < 0.5 * c.kappa) || !return_to_surface(c, shear, x))

@@ -4,7 +4,9 @@
 #include "constitutive/gap.hpp"
 #include "constitutive/mohr_coulomb_return.hpp"
 #include "constitutive/principal.hpp"
+#include "constitutive/shaking.hpp"
 #include "constitutive/softening.hpp"
+#include "core/elementary.hpp"
 
 #include <cmath>
 
@@ -50,7 +52,7 @@ struct MohrCoulomb {
     return Elasticity::from_young(p.youngs_modulus, p.poisson_ratio);
   }
   static Constants constants(const Params& p, double softening_scale) {
-    const double sin_psi = std::sin(p.dilation_angle);
+    const double sin_psi = sin(p.dilation_angle);
     return {elasticity(p),
             LinearSoftening::scaled(p.peak_strain, p.residual_strain, softening_scale),
             p.cohesion,
@@ -61,6 +63,9 @@ struct MohrCoulomb {
             p.tension_cutoff.value_or(std::numeric_limits<double>::infinity())};
   }
   static State initial_state(const Params&) { return {}; }
+  static ShearStrength shear_strength(const Params& p) {
+    return {p.cohesion * cos(p.friction_angle), sin(p.friction_angle)};
+  }
 
   template <class T>
   static T present_strength(const Constants& c, const StateOf<T>& s) noexcept {
@@ -74,7 +79,7 @@ struct MohrCoulomb {
     const T phi = c.friction + c.friction_change * degree;
     const T cohesion = c.cohesion + c.cohesion_change * degree;
     const T sin_phi = sine(phi);
-    const T across = cohesion * quick_sqrt(1.0 - sin_phi * sin_phi);  // c cos phi
+    const T across = cohesion * sqrt(1.0 - sin_phi * sin_phi);  // c cos phi
     // One division for two: by sin phi and by 1 - sin phi.
     const T one_minus = 1.0 - sin_phi, slope = max(T(1e-6), sin_phi);
     const T inverse = reciprocal(one_minus * slope), over_minus = inverse * slope;
@@ -100,21 +105,27 @@ struct MohrCoulomb {
     const MohrCoulombSurface<T> y = surface(c, old);
     T deviatoric = 0.0, opened = 0.0;
     Stress<Dim, T> returned = trial;
-    // Principal axes in 3D cost more than all the rest.
-    if (Dim == 2 || !all(surely_elastic(y, trial)))
+    // Principal axes in 3D cost more than all the rest. What a lane gives may not hang on its company.
+    const auto elastic = surely_elastic(y, trial);
+    if (Dim == 2 || !all(elastic)) {
       returned = map_principal(trial, [&](const Sorted3<T>& t) noexcept {
         const Principal<T> r =
             return_to_mohr_coulomb(c.elastic, y, Principal<T>{t.hi, t.mid, t.lo});
         const T d1 = t.hi - r.s1, d2 = t.mid - r.s2, d3 = t.lo - r.s3;
         const T mean = (d1 + d2 + d3) * (1.0 / 3.0);
         const T e1 = d1 - mean, e2 = d2 - mean, e3 = d3 - mean;
-        deviatoric =
-            quick_sqrt(2.0 / 3.0 * (e1 * e1 + e2 * e2 + e3 * e3)) * (0.5 / c.elastic.shear);
+        deviatoric = sqrt(2.0 / 3.0 * (e1 * e1 + e2 * e2 + e3 * e3)) * (0.5 / c.elastic.shear);
         // Only what opens in tension closes again; dilation of shear does not.
         const auto in_tension = r.s1 >= y.tension - 1e-9 * (y.tension + y.sigma_c);
         opened = select(in_tension, max(T(0.0), mean) * (1.0 / c.elastic.bulk), T(0.0));
         return Sorted3<T>{r.s1, r.s2, r.s3};
       });
+      if constexpr (Dim == 3) {
+        for (int i = 0; i < kVoigt<Dim>; ++i) returned[i] = select(elastic, trial[i], returned[i]);
+        deviatoric = select(elastic, T(0.0), deviatoric);
+        opened = select(elastic, T(0.0), opened);
+      }
+    }
     StressUpdate<StateOf<T>, Dim, T> r;
     r.state = old;
     r.state.plastic_strain = old.plastic_strain + deviatoric;
@@ -130,7 +141,7 @@ struct MohrCoulomb {
   /// s1 - s3 <= 2 tau with tau = sqrt(J2).
   template <int Dim, class T>
   static auto surely_elastic(const MohrCoulombSurface<T>& y, const Stress<Dim, T>& s) noexcept {
-    const T tau = quick_sqrt(j2(s)), highest = mean_stress(s) + 1.1547005383792517 * tau;
+    const T tau = sqrt(j2(s)), highest = mean_stress(s) + 1.1547005383792517 * tau;
     return (y.k - 1.0) * highest + 2.0 * tau <= y.sigma_c && highest <= y.tension;
   }
   /// sin on [0, 1] to 1e-15 by its Taylor series: the library's does not run on eight lanes.

@@ -27,13 +27,11 @@ template <class T>
   return max(y.k * s.s1 - s.s3 - y.sigma_c, s.s1 - y.tension);
 }
 
+/// Return to the face or the edges of the cone; `f13` is the trial's violation.
 template <class T>
-[[nodiscard]] Principal<T> return_to_mohr_coulomb(const Elasticity& e,
-                                                  const MohrCoulombSurface<T>& y,
-                                                  const Principal<T>& t) noexcept {
-  const double lambda = e.bulk - 2.0 / 3.0 * e.shear;
-  const double two_g = 2.0 * e.shear;
-
+[[nodiscard, gnu::always_inline]] inline Principal<T> return_to_cone(
+    double lambda, double two_g, const MohrCoulombSurface<T>& y, const Principal<T>& t,
+    T f13) noexcept {
   // D b of the flow directions of s1-s3; the planes of the edges follow by exchanging components.
   const double common = lambda * (y.m - 1.0);
   const double db_one = common + two_g * y.m;
@@ -41,7 +39,6 @@ template <class T>
   const T a_db = y.k * db_one - db_three;  // a^T D b of one plane
 
   // Face.
-  const T f13 = y.k * t.s1 - t.s3 - y.sigma_c;
   const T q1 = y.k * common - db_three, det1 = a_db * a_db - q1 * q1;
   const T q2 = y.k * db_one - common, det2 = a_db * a_db - q2 * q2;
   // One division for three: a_db, det1 and det2 are positive.
@@ -66,21 +63,35 @@ template <class T>
 
   const auto use12 = face.s2 > face.s1;
   const auto use23 = face.s3 > face.s2;
-  const Principal<T> shear{select(use12, edge12.s1, select(use23, edge23.s1, face.s1)),
-                           select(use12, edge12.s2, select(use23, edge23.s2, face.s2)),
-                           select(use12, edge12.s3, select(use23, edge23.s3, face.s3))};
+  return {select(use12, edge12.s1, select(use23, edge23.s1, face.s1)),
+          select(use12, edge12.s2, select(use23, edge23.s2, face.s2)),
+          select(use12, edge12.s3, select(use23, edge23.s3, face.s3))};
+}
 
-  // Tension: face, edge and corner of the Rankine planes.
-  const T st = y.tension;
+/// Return to the face, edge or corner of the Rankine planes of the cut-off `st`.
+template <class T>
+[[nodiscard, gnu::always_inline]] inline Principal<T> return_to_cut_off(
+    double lambda, double two_g, double shear, T st, const Principal<T>& t) noexcept {
   const T over1 = max(T(0.0), t.s1 - st);
   const double ratio1 = lambda / (lambda + two_g);
   const T r2 = t.s2 - over1 * ratio1, r3 = t.s3 - over1 * ratio1;
   const T over12 = 0.5 * ((t.s1 - st) + (t.s2 - st));
-  const double ratio12 = lambda / (lambda + e.shear);
+  const double ratio12 = lambda / (lambda + shear);
   const T r3_edge = t.s3 - over12 * ratio12;
   const auto two = r2 > st;
   const auto three = two && r3_edge > st;
-  const Principal<T> rankine{st, select(two, st, r2), select(three, st, select(two, r3_edge, r3))};
+  return {st, select(two, st, r2), select(three, st, select(two, r3_edge, r3))};
+}
+
+template <class T>
+[[nodiscard]] Principal<T> return_to_mohr_coulomb(const Elasticity& e,
+                                                  const MohrCoulombSurface<T>& y,
+                                                  const Principal<T>& t) noexcept {
+  const double lambda = e.bulk - 2.0 / 3.0 * e.shear;
+  const double two_g = 2.0 * e.shear;
+  const T st = y.tension, f13 = y.k * t.s1 - t.s3 - y.sigma_c;
+  const Principal<T> shear = return_to_cone(lambda, two_g, y, t, f13);
+  const Principal<T> rankine = return_to_cut_off(lambda, two_g, e.shear, st, t);
 
   // Where tension and shear meet: s1 and s3 are fixed, s2 follows from both flow directions.
   const T s3_corner = y.k * st - y.sigma_c;

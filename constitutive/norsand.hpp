@@ -2,6 +2,7 @@
 #include "config/schema.hpp"
 #include "constitutive/concept.hpp"
 #include "constitutive/softening.hpp"
+#include "core/elementary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -67,16 +68,17 @@ struct NorSand {
 
   /// State parameter at the pressure p [-].
   static double state_parameter(const Params& p, double void_ratio, double pressure) noexcept {
-    return void_ratio - p.csl_void_ratio + p.csl_slope * std::log(pressure / 1e3);
+    return void_ratio - p.csl_void_ratio + p.csl_slope * log(pressure / 1e3);
   }
 
   template <int Dim, class T>
   [[nodiscard]] static StressUpdate<StateOf<T>, Dim, T> update(
       const Constants& c, const StateOf<T>& old, const Stress<Dim, T>& sigma,
       const StrainIncrement<Dim, T>& de) noexcept {
-    double largest = 0.0;
-    for (const T& x : de.v) largest = std::max(largest, std::abs(x));
-    const int parts = std::clamp(static_cast<int>(largest / kPart) + 1, 1, 200);
+    // An invariant, not the largest component: the answer must not turn with the axes.
+    double squares = 0.0;
+    for (int i = 0; i < kVoigt<Dim>; ++i) squares += (i < 3 ? 2.0 : 1.0) * de[i] * de[i];
+    const int parts = std::clamp(static_cast<int>(std::sqrt(squares) / kPart) + 1, 1, 200);
     StrainIncrement<Dim, T> part = de;
     for (T& x : part.v) x *= 1.0 / parts;
     StressUpdate<StateOf<T>, Dim, T> r{sigma, old};
@@ -91,7 +93,7 @@ struct NorSand {
   static double bulk_ratio(double nu) { return 2.0 * (1.0 + nu) / (3.0 * (1.0 - 2.0 * nu)); }
   static double shear_at(const Constants& c, double pressure) noexcept {
     return c.elastic.shear *
-           std::pow(std::max(pressure, c.p.minimum_pressure) / c.p.reference_pressure,
+           pow(std::max(pressure, c.p.minimum_pressure) / c.p.reference_pressure,
                     c.p.shear_exponent);
   }
 
@@ -113,7 +115,7 @@ struct NorSand {
     const double image = r.state.image_pressure;
     const double psi_image = state_parameter(c.p, r.state.void_ratio, image);
     const double m = image_ratio(c.p, limiting_dilatancy(c.p), psi_image);
-    const double most = std::max(0.0, p * m * (1.0 + std::log(image / p)));
+    const double most = std::max(0.0, p * m * (1.0 + log(image / p)));
     if (!(q > most)) return;
     const double scale = most / q;
     for (int i = 0; i < 3; ++i) r.stress[i] = (r.stress[i] - mean) * scale + mean;
@@ -146,11 +148,11 @@ struct NorSand {
     for (int i = 0; i < 30; ++i) {
       const double psi_image = state_parameter(k, e, image);
       const double m = image_ratio(k, chi, psi_image);
-      const double f = q - p * m * (1.0 + std::log(image / p));
+      const double f = q - p * m * (1.0 + log(image / p));
       if (f <= 1e-9 * p) break;
-      const double dilatancy = m * std::log(p / image);  // M_i - eta on the surface
+      const double dilatancy = m * log(p / image);  // M_i - eta on the surface
       const double h = std::max(0.0, k.hardening - k.hardening_state * state_parameter(k, e, p));
-      const double greatest = std::exp(-chi * psi_image / m);
+      const double greatest = exp(-chi * psi_image / m);
       const double ratio = p / image;
       const double hardening = h * image * ratio * ratio * (greatest - image / p);
       const double stiffness =

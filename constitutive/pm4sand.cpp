@@ -1,6 +1,7 @@
 #include "constitutive/pm4sand.hpp"
 
 #include "constitutive/pm4sand_flow.hpp"
+#include "core/elementary.hpp"
 
 namespace flowslide {
 namespace {
@@ -35,14 +36,14 @@ PM4Sand::Constants PM4Sand::constants(const Params& p) {
   c.nd = p.nd;
   c.cz = p.cz;
   c.ce = p.ce.value_or(default_ce(p.Dr));
-  c.M = 2.0 * std::sin(p.phi_cv);
+  c.M = 2.0 * sin(p.phi_cv);
   c.Cgd = p.Cgd;
   c.Cdr = std::min(p.Cdr.value_or(5.0 + 25.0 * (p.Dr - 0.35)), 10.0);
   c.Ckaf = std::clamp(p.Ckaf.value_or(default_Ckaf(p.Dr)), 4.0, 35.0);
   c.Q = p.Q;
   c.R = p.R;
   c.m = p.m;
-  c.Fsed_min = std::min(p.Fsed_min.value_or(0.03 * std::exp(2.6 * p.Dr)), 0.99);
+  c.Fsed_min = std::min(p.Fsed_min.value_or(0.03 * exp(2.6 * p.Dr)), 0.99);
   c.p_sedo = p.p_sedo.value_or(0.2 * p.P_atm);
   c.bulk_ratio = 2.0 / 3.0 * (1.0 + p.nu) / (1.0 - 2.0 * p.nu);
   c.Ado = p.Ado;
@@ -51,6 +52,8 @@ PM4Sand::Constants PM4Sand::constants(const Params& p) {
   c.tolerance = p.tolerance;
   return c;
 }
+
+ShearStrength PM4Sand::shear_strength(const Params& p) { return {0.0, sin(p.phi_cv)}; }
 
 Elasticity PM4Sand::gravity_elasticity(const Params& p, double poisson_ratio) {
   const double shear = p.G0 * p.P_atm;
@@ -71,9 +74,9 @@ PM4Sand::State PM4Sand::initial_state(const Constants& c, const Stress<2>& sigma
     dev = {};
   }
   const Surfaces f = surfaces(c, p, c.Dr);
-  s.z_max = c.z_max.value_or(std::min(0.7 * std::exp(-6.1 * f.xi), 20.0));
+  s.z_max = c.z_max.value_or(std::min(0.7 * exp(-6.1 * f.xi), 20.0));
   const double dense_A_do =
-      f.Mb > 2.0 ? 1.5 : 2.5 * (std::asin(0.5 * f.Mb) - std::asin(0.5 * c.M)) / (f.Mb - f.Md);
+      f.Mb > 2.0 ? 1.5 : 2.5 * (asin(0.5 * f.Mb) - asin(0.5 * c.M)) / (f.Mb - f.Md);
   s.A_do = c.Ado.value_or(f.xi < 0.0 ? dense_A_do : 1.24);
 
   const double M_start = kRoot2 * norm(dev) / p;

@@ -1,6 +1,7 @@
 #pragma once
 #include "config/schema.hpp"
 #include "constitutive/concept.hpp"
+#include "constitutive/shaking.hpp"
 #include "core/conventions.hpp"
 
 #include <array>
@@ -15,6 +16,7 @@ namespace flowslide {
 /// implementation in OpenSees are listed in docs/theory/pm4sand.md.
 struct PM4Sand {
   static constexpr std::string_view name = "pm4sand";
+  static constexpr bool plane_mean_stress = true;  ///< sigma_zz is (xx + yy)/2
 
   /// Names and defaults of the OpenSees command; the density is the element's business.
   struct Params {
@@ -104,6 +106,9 @@ struct PM4Sand {
   /// ratio of that stage sets K_0 = nu/(1 - nu) and need not be the law's own.
   static Elasticity gravity_elasticity(const Params& p, double poisson_ratio);
 
+  /// Critical-state friction: tau <= p sin(phi_cv).
+  static ShearStrength shear_strength(const Params& p);
+
   /// FirstCall of OpenSees: the state of a point that was consolidated to `sigma` and has no
   /// history of shearing. A stress below p_min or beyond the bounding surface is split: the
   /// admissible part is integrated, the rest is held and added again to every returned stress.
@@ -122,6 +127,9 @@ struct PM4Sand {
 };
 static_assert(std::is_trivially_copyable_v<PM4Sand::State> &&
               sizeof(PM4Sand::State) == sizeof(double) * PM4Sand::state_names.size());
+
+/// As PM4Sand::constants.
+void check(const PM4Sand::Params& p);
 
 template <>
 struct Schema<PM4Sand::Params> {

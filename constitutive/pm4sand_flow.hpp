@@ -1,5 +1,6 @@
 #pragma once
 #include "constitutive/pm4sand.hpp"
+#include "core/elementary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -45,11 +46,11 @@ struct Surfaces {
 
 /// Eqs (2), (3).
 inline Surfaces surfaces(const PM4Sand::Constants& c, double p, double Dr) {
-  const double depth = std::max(c.Q - std::log(100.0 * p / c.P_atm), 0.1);
+  const double depth = std::max(c.Q - log(100.0 * p / c.P_atm), 0.1);
   const double xi = c.R / depth - Dr;
   const bool dense = xi <= 0.0;
-  return {xi, c.M * std::exp(-(dense ? c.nb : 0.25 * c.nb) * xi),
-          c.M * std::exp((dense ? c.nd : 4.0 * c.nd) * xi)};
+  return {xi, c.M * exp(-(dense ? c.nb : 0.25 * c.nb) * xi),
+          c.M * exp((dense ? c.nd : 4.0 * c.nd) * xi)};
 }
 
 inline double relative_density(const PM4Sand::Constants& c, double void_ratio) {
@@ -72,7 +73,8 @@ inline Moduli moduli(const PM4Sand::Constants& c, const PM4Sand::State& s, const
   double G = c.G0 * std::sqrt(pn * c.P_atm) * c_sr * (1.0 + fabric) / (1.0 + fabric * c.Cgd);
   if (c.post_shake) {
     const double p_sed =
-        c.p_sedo * (s.z_cum / (s.z_cum + s.z_max)) * std::pow(positive(1.0 - M_cur / f.Md), 0.25);
+        c.p_sedo * (s.z_cum / (s.z_cum + s.z_max)) *
+        std::sqrt(std::sqrt(positive(1.0 - M_cur / f.Md)));
     G *= std::min(
         1.0, c.Fsed_min + (1.0 - c.Fsed_min) * positive(p) / (20.0 * (p_sed + 1e-9 * c.P_atm)));
   }
@@ -145,7 +147,7 @@ inline double contraction(const PM4Sand::Constants& c, const PM4Sand::State& s, 
                           const Surfaces& f, double p, double z_n, double from_initial,
                           double to_dilatancy) {
   const double loose = positive(0.5 - f.xi);
-  const double hp = c.hpo * std::exp(-0.7 + 7.0 * loose * loose);
+  const double hp = c.hpo * exp(-0.7 + 7.0 * loose * loose);
   const double A_dc = s.A_do * (1.0 + positive(z_n)) / (hp * h.C_dz);
   const double x = from_initial + kRoot2 * positive(z_n) * h.inverse_z_max;
   const double D = std::min(A_dc * x * x, 1.5 * s.A_do) * to_dilatancy / (to_dilatancy + 0.16);
@@ -175,7 +177,7 @@ inline Flow flow(const PM4Sand::Constants& c, const PM4Sand::State& s, const His
   const double apparent = positive(from_initial);
   const double root_b = std::sqrt(std::max(std::abs(to_bounding), 1e-10));
   double rate = e.G * c.h0 * C_ka /
-                ((std::exp(apparent) - 1.0 + C_g1) * root_b *
+                ((exp(apparent) - 1.0 + C_g1) * root_b *
                  (1.0 + 2.0 * h.peak_ratio * positive(to_bounding) * h.root_zpk2));
   if (alpha_n <= dot(s.alpha_in_p, r.n)) rate *= (apparent + C_g1) / (from_true + C_g1);
   r.Kp = rate * to_bounding;
@@ -183,7 +185,7 @@ inline Flow flow(const PM4Sand::Constants& c, const PM4Sand::State& s, const His
   r.b_n = to_bounding;
   r.b_side = alpha_n * r.n - at.alpha;
 
-  const double C_zin1 = 1.0 - std::exp(-2.0 * std::abs(dot(s.z_in, r.n) - z_n) * h.inverse_z_max);
+  const double C_zin1 = 1.0 - exp(-2.0 * std::abs(dot(s.z_in, r.n) - z_n) * h.inverse_z_max);
   const double C_rot1 = 1.0 + kRoot2 * minus_z_n * h.inverse_z_max * (1.0 - C_zin1);
   const double to_rotated = kRootHalf * (f.Md / C_rot1 - c.m) - alpha_n;
   if (to_rotated <= 0.0) {

@@ -10,7 +10,6 @@ template <>
 struct Schema<PointMaterial> {
   static constexpr std::string_view doc = "Exactly one law.";
   static void describe(FieldVisitor& v, PointMaterial& c) {
-    v.group("pm4sand", c.pm4sand, Schema<PM4Sand::Params>::doc);
     describe_laws(v, c.laws);
   }
 };
@@ -112,16 +111,9 @@ void check_leg(const PointLeg& leg, std::size_t index) {
 }  // namespace
 
 void check(const PointConfig& config) {
-  const auto& m = config.material;
-  const int laws = int{m.pm4sand.has_value()} + count_given(m.laws);
-  validate(laws == 1, "material: {} laws (exactly one decides). Give one of pm4sand, {}", laws,
-           law_names());
-  if (m.pm4sand)
-    (void)PM4Sand::constants(*m.pm4sand);
-  else
-    (void)make_material(m.laws, "material");
+  (void)make_material(config.material.laws, "material");
   validate(
-      !config.stress.compacts || m.pm4sand,
+      !config.stress.compacts || config.material.laws.of<PM4Sand>(),
       "stress.compacts with a law other than pm4sand (it has no void ratio to lower). Leave it "
       "out");
   validate(

@@ -1,6 +1,5 @@
 #pragma once
 #include "constitutive/materials.hpp"
-#include "constitutive/pm4sand.hpp"
 #include "constitutive/point_driver.hpp"
 
 #include <optional>
@@ -12,8 +11,7 @@
 namespace flowslide {
 
 struct PointMaterial {
-  std::optional<PM4Sand::Params> pm4sand;
-  MaterialSettings laws;
+  LawSettings<AllLaws> laws;
 };
 
 /// The consolidated state; compression positive here, as in the laboratory.

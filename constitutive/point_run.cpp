@@ -11,47 +11,54 @@ namespace {
 
 /// Volumetric strain, compression positive, of elastic consolidation without lateral strain, as in
 /// the gravity stage of OpenSees and of fem.run.
-double consolidation_strain(const PM4Sand::Params& p, const PointStress& s) {
-  const Elasticity e = PM4Sand::gravity_elasticity(p, s.k0 / (1.0 + s.k0));
+template <class M>
+double consolidation_strain(const typename M::Params& p, const PointStress& s) {
+  const Elasticity e = rest_elasticity<M>(p, s.k0 / (1.0 + s.k0));
   return s.vertical / (e.bulk + 4.0 / 3.0 * e.shear);
 }
 
-PointUnderTest point_of(const PointConfig& config, std::string& law) {
-  const PointStress& s = config.stress;
+template <class M>
+typename M::State consolidated(const typename M::Params& p, const typename M::Constants& c,
+                               const Stress<2>& sigma, const PointStress& s) {
+  if constexpr (ShakingModel<M>)
+    return rest_state<M>(p, c, sigma, s.compacts ? consolidation_strain<M>(p, s) : 0.0);
+  else
+    return M::initial_state(p);
+}
+
+template <class M>
+PointUnderTest point_with(const typename M::Params& p, const PointStress& s) {
+  // A point follows strains and stresses, not time.
+  if constexpr (requires { M::rate_dependent; })
+    throw InputError(fmt::format(
+        "material: the stress of {} depends on the rate of strain (a point is driven without "
+        "time). Use a law that does not, such as {}",
+        M::name, MohrCoulomb::name));
   const double lateral = -s.k0 * s.vertical;
   const Stress<2> sigma{{lateral, -s.vertical, lateral, s.shear}};
-  if (config.material.pm4sand) {
-    law = PM4Sand::name;
-    const PM4Sand::Constants c = PM4Sand::constants(*config.material.pm4sand);
-    return make_point(
-        sigma,
-        PM4Sand::initial_state(
-            c, sigma, s.compacts ? consolidation_strain(*config.material.pm4sand, s) : 0.0),
-        [c](const Stress<2>& stress, const PM4Sand::State& state, const StrainIncrement<2>& de) {
-          return PM4Sand::update(c, state, stress, de);
-        },
-        [c](const Stress<2>& stress, const PM4Sand::State& state) {
-          return PM4Sand::elasticity(c, state, stress);
-        });
-  }
+  using State = typename M::State;
+  const auto c = shaking_constants<M>(p);
+  return make_point(
+      sigma, consolidated<M>(p, c, sigma, s),
+      [c](const Stress<2>& stress, const State& state, const StrainIncrement<2>& de) {
+        if constexpr (ShakingModel<M>)
+          return M::update(c, state, stress, de);
+        else
+          return update_law<M, 2, double>(c, state, stress, de, 0.0);
+      },
+      [c, p](const Stress<2>& stress, const State& state) {
+        if constexpr (requires { M::elasticity(c, state, stress); })
+          return M::elasticity(c, state, stress);
+        else
+          return M::elasticity(p);
+      });
+}
+
+PointUnderTest point_of(const PointConfig& config, std::string& law) {
   return std::visit(
       [&]<class M>(const Material<M>& material) {
         law = M::name;
-        // A point follows strains and stresses, not time.
-        if constexpr (requires { M::rate_dependent; })
-          throw InputError(fmt::format(
-              "material: the stress of {} depends on the rate of strain (a point is driven without "
-              "time). Use a law that does not, such as {}",
-              M::name, MohrCoulomb::name));
-        const auto constants = M::constants(material.params, 1.0);
-        const Elasticity elasticity = M::elasticity(material.params);
-        using State = typename M::State;
-        return make_point(
-            sigma, M::initial_state(material.params),
-            [constants](const Stress<2>& stress, const State& state, const StrainIncrement<2>& de) {
-              return update_law<M, 2, double>(constants, state, stress, de, 0.0);
-            },
-            [elasticity](const Stress<2>&, const State&) { return elasticity; });
+        return point_with<M>(material.params, config.stress);
       },
       make_material(config.material.laws, "material"));
 }

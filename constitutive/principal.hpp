@@ -23,7 +23,7 @@ template <class T>
 template <class T, class Map>
 [[nodiscard]] Stress<2, T> map_principal(const Stress<2, T>& s, Map&& map) noexcept {
   const T centre = 0.5 * (s[0] + s[1]), half = 0.5 * (s[0] - s[1]);
-  const T radius = quick_sqrt(half * half + s[3] * s[3]);
+  const T radius = sqrt(half * half + s[3] * s[3]);
   const T a = centre + radius, b = centre - radius, z = s[2];
   const Sorted3<T> r = map(sort3(a, b, z));
   const auto z_high = z > a;

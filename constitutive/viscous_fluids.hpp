@@ -1,6 +1,7 @@
 #pragma once
 #include "config/schema.hpp"
 #include "constitutive/fluid.hpp"
+#include "core/elementary.hpp"
 
 #include <optional>
 
@@ -141,10 +142,10 @@ struct HerschelBulkley {
   static double shear_rate(const Constants& c, double over, double dt) noexcept {
     const double g_dt = c.elastic.shear * dt;
     double low = 0.0;
-    double high = std::min(over / g_dt, std::pow(over / c.consistency, 1.0 / c.flow_index));
+    double high = std::min(over / g_dt, pow(over / c.consistency, 1.0 / c.flow_index));
     double y = high;
     for (int i = 0; i < 60 && high - low > 1e-14 * high; ++i) {
-      const double flow = c.consistency * std::pow(y, c.flow_index);
+      const double flow = c.consistency * pow(y, c.flow_index);
       const double residual = flow + g_dt * y - over;
       (residual > 0.0 ? high : low) = y;
       const double next = y - residual / (c.flow_index * flow / y + g_dt);

@@ -66,15 +66,15 @@ fs::path temporary_name(const fs::path& path) {
   std::uint64_t number = 0;
   if (::getrandom(&number, sizeof number, 0) != sizeof number)
     fail(path, "cannot get a temporary name", errno);
-  return folder_of(path) / fmt::format(".{}.{:0{}x}{}", path.filename().string(), number,
-                                       kRandomDigits, kEnding);
+  return folder_of(path) /
+         fmt::format(".{}.{:0{}x}{}", path.filename().string(), number, kRandomDigits, kEnding);
 }
 
 OutputFile::OutputFile(fs::path path)
     : path_(std::move(path)),
       temporary_(temporary_name(path_)),
-      file_(::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC,
-                   0666)) {
+      file_(
+          ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666)) {
   if (file_ < 0) fail(path_, "cannot be written", errno);
 }
 
@@ -84,18 +84,25 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::write(const void* bytes, std::size_t size) {
-  buffer_.append(static_cast<const char*>(bytes), size);
-  if (buffer_.size() >= kBufferBytes) flush();
+  if (buffer_.size() + size >= kBufferBytes) flush();
+  if (size >= kBufferBytes)
+    put(static_cast<const char*>(bytes), size);
+  else
+    buffer_.append(static_cast<const char*>(bytes), size);
 }
 
 void OutputFile::flush() {
-  for (std::size_t done = 0; done < buffer_.size();) {
-    const ssize_t n = ::write(file_, buffer_.data() + done, buffer_.size() - done);
+  put(buffer_.data(), buffer_.size());
+  buffer_.clear();
+}
+
+void OutputFile::put(const char* bytes, std::size_t size) {
+  for (std::size_t done = 0; done < size;) {
+    const ssize_t n = ::write(file_, bytes + done, size - done);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) fail(path_, "cannot be written; is the disk full?", n < 0 ? errno : ENOSPC);
     done += static_cast<std::size_t>(n);
   }
-  buffer_.clear();
 }
 
 void OutputFile::commit() {
@@ -115,20 +122,27 @@ void write_file(const fs::path& path, std::string_view bytes) {
 
 void expect_regular_file(const fs::path& path) { open_regular(path); }
 
-std::string read_file(const fs::path& path, std::uint64_t limit) {
+void read_blocks(const fs::path& path, const std::function<void(std::string_view)>& take) {
   const Descriptor file = open_regular(path);
-  std::string bytes;
   std::vector<char> block(kBufferBytes);
   for (;;) {
     const ssize_t n = ::read(file.get(), block.data(), block.size());
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) fail(path, "cannot be read", errno);
-    if (n == 0) return bytes;
-    bytes.append(block.data(), static_cast<std::size_t>(n));
+    if (n == 0) return;
+    take({block.data(), static_cast<std::size_t>(n)});
+  }
+}
+
+std::string read_file(const fs::path& path, std::uint64_t limit) {
+  std::string bytes;
+  read_blocks(path, [&](std::string_view block) {
+    bytes += block;
     if (bytes.size() > limit)
       throw FileError(fmt::format("'{}' has more than {} bytes (too many for what it should be)",
                                   path.string(), limit));
-  }
+  });
+  return bytes;
 }
 
 void sync_path(const fs::path& path) {

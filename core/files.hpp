@@ -2,12 +2,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
 /// The one way in which the program writes, replaces and removes files. Every system call is
-/// checked, links are never followed for writing, and a file under its final name is complete and on
-/// the disk: after a power cut the old or the new is there. Everything throws FileError with the
+/// checked, links are never followed for writing, and a file under its final name is complete and
+/// on the disk: after a power cut the old or the new is there. Everything throws FileError with the
 /// system's reason.
 namespace flowslide {
 
@@ -33,10 +34,16 @@ class OutputFile {
   std::string buffer_;
   int file_ = -1;
   void flush();
+  void put(const char* bytes, std::size_t size);
 };
 
 /// OutputFile for bytes that are there already.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// Hands the content of a regular file to `take`, block by block, whatever its size. FileError for
+/// anything else; what `take` throws goes through.
+void read_blocks(const std::filesystem::path& path,
+                 const std::function<void(std::string_view block)>& take);
 
 /// Whole content of a regular file. FileError for anything else (folder, pipe, device: they may
 /// have no end) and for more than `limit` bytes.

@@ -1,10 +1,10 @@
 #include "core/hash.hpp"
 
 #include "core/check.hpp"
+#include "core/files.hpp"
 
 #include <array>
-#include <fstream>
-#include <vector>
+#include <new>
 
 #include <openssl/evp.h>
 
@@ -17,21 +17,21 @@ EVP_MD_CTX* context_of(void* p) { return static_cast<EVP_MD_CTX*>(p); }
 
 void Sha256::Free::operator()(void* context) const { EVP_MD_CTX_free(context_of(context)); }
 
+// With arguments that are right, OpenSSL fails for want of memory only.
 Sha256::Sha256() : context_(EVP_MD_CTX_new()) {
   if (!context_ || EVP_DigestInit_ex(context_of(context_.get()), EVP_sha256(), nullptr) != 1)
-    throw std::runtime_error("OpenSSL: cannot start SHA-256");
+    throw std::bad_alloc();
 }
 
 void Sha256::add(const void* bytes, std::size_t size) {
-  if (EVP_DigestUpdate(context_of(context_.get()), bytes, size) != 1)
-    throw std::runtime_error("OpenSSL: SHA-256 failed");
+  if (EVP_DigestUpdate(context_of(context_.get()), bytes, size) != 1) throw std::bad_alloc();
 }
 
 std::string Sha256::hex() {
   std::array<unsigned char, EVP_MAX_MD_SIZE> bytes{};
   unsigned int size = 0;
   if (EVP_DigestFinal_ex(context_of(context_.get()), bytes.data(), &size) != 1)
-    throw std::runtime_error("OpenSSL: SHA-256 failed");
+    throw std::bad_alloc();
   std::string text;
   for (unsigned int i = 0; i < size; ++i) text += fmt::format("{:02x}", bytes[i]);
   return text;
@@ -44,15 +44,8 @@ std::string sha256(std::string_view bytes) {
 }
 
 std::string sha256_file(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw FileError(fmt::format("cannot read '{}'", path.string()));
   Sha256 digest;
-  std::vector<char> block(1 << 20);
-  while (in) {
-    in.read(block.data(), static_cast<std::streamsize>(block.size()));
-    digest.add(block.data(), static_cast<std::size_t>(in.gcount()));
-  }
-  if (in.bad()) throw FileError(fmt::format("reading '{}' failed half-way", path.string()));
+  read_blocks(path, [&](std::string_view block) { digest.add(block.data(), block.size()); });
   return digest.hex();
 }
 

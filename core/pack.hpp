@@ -97,36 +97,14 @@ inline Pack floor(Pack a) {
   return r;
 #endif
 }
-/// 1 / sqrt(a) for positive normal numbers, to a few units in the last place.
-inline Pack inverse_sqrt(Pack a) {
-#if defined(__AVX512F__)
-  // 14 bits, then twice Newton: several times cheaper than a root and a division.
-  Pack r(Pack::Vector(_mm512_mask_rsqrt14_pd(_mm512_setzero_pd(), 0xff, __m512d(a.v))));
-  const Pack half = 0.5 * a;
-  r = r * (1.5 - half * r * r);
-  return r * (1.5 - half * r * r);
-#else
-  return 1.0 / sqrt(a);
-#endif
-}
+// The processor's estimates with Newton's steps would be cheaper, but estimates differ between
+// processors; roots and divisions are exact on all.
+inline Pack inverse_sqrt(Pack a) { return 1.0 / sqrt(a); }
 inline double inverse_sqrt(double a) { return 1.0 / std::sqrt(a); }
-/// 1 / a for positive normal numbers, to a few units in the last place.
-inline Pack reciprocal(Pack a) {
-#if defined(__AVX512F__)
-  Pack r(Pack::Vector(_mm512_mask_rcp14_pd(_mm512_setzero_pd(), 0xff, __m512d(a.v))));
-  r = r * (2.0 - a * r);
-  return r * (2.0 - a * r);
-#else
-  return 1.0 / a;
-#endif
-}
+inline Pack reciprocal(Pack a) { return 1.0 / a; }
 inline double reciprocal(double a) { return 1.0 / a; }
 inline double sqrt(double a) { return std::sqrt(a); }
 inline double floor(double a) { return std::floor(a); }
-
-/// sqrt(a) of a >= 0 to a few units in the last place; 0 for a far below 1e-280.
-inline Pack quick_sqrt(Pack a) { return a * inverse_sqrt(a + 1e-280); }
-inline double quick_sqrt(double a) { return std::sqrt(a); }
 
 /// Access to `count` (1 to `lanes`) neighbouring numbers; lanes beyond repeat the last one on
 /// loading and are dropped on storing, so that the end of an array needs no padding.
@@ -159,13 +137,6 @@ inline Pack gather_pack(const double* from, const std::int32_t* index) {
 #endif
 }
 
-/// Sum of the first `count` lanes, in lane order.
-inline double sum_lanes(Pack x, int count) {
-  double s = 0.0;
-  for (int i = 0; i < count; ++i) s += x.v[i];
-  return s;
-}
-inline double sum_lanes(double x, int) { return x; }
 inline double max_lanes(double x) { return x; }
 inline double max_lanes(Pack x) {
   double s = x.v[0];

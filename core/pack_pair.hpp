@@ -2,6 +2,7 @@
 #include "core/pack.hpp"
 
 #include <algorithm>
+#include <array>
 
 /// Two Packs that go through the same arithmetic side by side. A long chain of operations that
 /// depend on each other leaves the processor waiting for each; two chains fill the gaps.
@@ -48,7 +49,6 @@ inline PackPair max(PackPair x, PackPair y) { return {max(x.a, y.a), max(x.b, y.
 inline PackPair sqrt(PackPair x) { return {sqrt(x.a), sqrt(x.b)}; }
 inline PackPair floor(PackPair x) { return {floor(x.a), floor(x.b)}; }
 inline PackPair inverse_sqrt(PackPair x) { return {inverse_sqrt(x.a), inverse_sqrt(x.b)}; }
-inline PackPair quick_sqrt(PackPair x) { return {quick_sqrt(x.a), quick_sqrt(x.b)}; }
 inline PackPair reciprocal(PackPair x) { return {reciprocal(x.a), reciprocal(x.b)}; }
 
 template <>
@@ -67,10 +67,36 @@ template <>
 inline auto first_lanes<PackPair>(int n) {
   return PackPairMask{first_lanes<Pack>(n), first_lanes<Pack>(n - Pack::lanes)};
 }
-inline double sum_lanes(PackPair x, int count) {
-  const double first = sum_lanes(x.a, std::min(count, Pack::lanes));
-  return first + sum_lanes(x.b, std::max(0, count - Pack::lanes));
-}
 inline double max_lanes(PackPair x) { return max(max_lanes(x.a), max_lanes(x.b)); }
+
+/// A sum over neighbouring points, kLanes<T> at a time, whose order of additions is the same for
+/// every width of registers: as many partial sums as the widest has lanes.
+template <class T>
+class OrderedSum {
+ public:
+  void add(T x) {
+    part_[next_] += x;
+    next_ = (next_ + 1) % kParts;
+  }
+  [[nodiscard]] double total() const {
+    double sum = 0.0;
+    for (const T& x : part_) {
+      double lane[kLanes<T>];
+      store_lanes(lane, x, kLanes<T>);
+      for (const double value : lane) sum += value;
+    }
+    return sum;
+  }
+
+ private:
+  static constexpr int kWidest = kLanes<T> == 1 ? 1 : 8 * kLanes<T> / Pack::lanes;
+  static constexpr int kParts = kWidest / kLanes<T>;
+  std::array<T, kParts> part_ = [] {
+    std::array<T, kParts> zero;
+    zero.fill(T(0.0));
+    return zero;
+  }();
+  int next_ = 0;
+};
 
 }  // namespace flowslide

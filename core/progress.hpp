@@ -1,4 +1,6 @@
 #pragma once
+#include "core/check.hpp"
+
 #include <atomic>
 #include <functional>
 #include <string_view>
@@ -13,6 +15,12 @@ struct Progress {
   /// Set by a signal handler: finish the step, write a checkpoint and throw Interrupted.
   const std::atomic<bool>* stop_requested = nullptr;
   [[nodiscard]] bool should_stop() const { return stop_requested && stop_requested->load(); }
+  /// For the loops of stages that keep nothing when they are interrupted; costs a load.
+  void poll() const {
+    if (should_stop())
+      throw Interrupted(
+          "interrupted (this stage had not finished) the same command begins it again");
+  }
 };
 
 }  // namespace flowslide

@@ -98,6 +98,29 @@ double unit_factor(std::string_view unit, Dim dim) {
       fmt::format("unknown unit '{}' ({} expected) use one of: {}", unit, name(dim), example(dim)));
 }
 
+namespace {
+
+/// Whether a number that no double holds is below one: by the place of its first digit that is not
+/// zero and its exponent.
+bool is_small(std::string_view number) {
+  double place = 0.0, exponent = 0.0;
+  bool significant = false, fraction = false;
+  std::size_t i = number.starts_with('-') ? 1 : 0;
+  for (; i < number.size() && number[i] != 'e' && number[i] != 'E'; ++i) {
+    significant = significant || (number[i] != '0' && number[i] != '.');
+    if (number[i] == '.')
+      fraction = true;
+    else if (significant != fraction)
+      place += significant ? 1.0 : -1.0;
+  }
+  const bool negative = i + 1 < number.size() && number[i + 1] == '-';
+  for (++i; i < number.size(); ++i)
+    if (number[i] >= '0' && number[i] <= '9') exponent = 10.0 * exponent + (number[i] - '0');
+  return place + (negative ? -exponent : exponent) < 0.0;
+}
+
+}  // namespace
+
 bool parse_number(std::string_view text, double& value, std::size_t& length) {
   std::size_t skip = 0;
   if (!text.empty() && text[0] == '+') skip = 1;
@@ -108,11 +131,7 @@ bool parse_number(std::string_view text, double& value, std::size_t& length) {
   if (error == std::errc::result_out_of_range) {
     // Too small for a double is zero; too large is infinite, which every range check refuses.
     const std::string_view digits(first, static_cast<std::size_t>(end - first));
-    const auto exponent = digits.find_first_of("eE");
-    const bool tiny = exponent != std::string_view::npos && exponent + 1 < digits.size()
-                          ? digits[exponent + 1] == '-'
-                          : digits.find('.') < 2;
-    value = tiny ? 0.0 : std::numeric_limits<double>::infinity();
+    value = is_small(digits) ? 0.0 : std::numeric_limits<double>::infinity();
     if (digits[0] == '-') value = -value;
   } else if (error != std::errc()) {
     return false;

@@ -1,12 +1,11 @@
 #include "exporters/opensees_recorders.hpp"
 
 #include "core/check.hpp"
+#include "core/files.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
-#include <memory>
 
 #include <fmt/format.h>
 
@@ -16,45 +15,6 @@ namespace flowslide {
 namespace {
 
 constexpr double kKiloPascal = 1e-3;
-
-/// Text under NAME.partial, renamed by finish(); gone if finish() was not reached.
-class TextFile {
- public:
-  explicit TextFile(const fs::path& path) : path_(path), partial_(path.string() + ".partial") {
-    file_.reset(std::fopen(partial_.c_str(), "wb"));
-    if (!file_)
-      throw FileError(fmt::format("'{}' cannot be written (is the folder there and writable?)",
-                                  partial_.string()));
-  }
-  ~TextFile() {
-    file_.reset();
-    std::error_code ignored;
-    fs::remove(partial_, ignored);
-  }
-  TextFile(const TextFile&) = delete;
-  TextFile& operator=(const TextFile&) = delete;
-
-  void write(const std::string& text) {
-    if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) fail();
-  }
-  void finish() {
-    if (std::fclose(file_.release()) != 0) fail();
-    std::error_code error;
-    fs::rename(partial_, path_, error);
-    if (error) fail();
-  }
-
- private:
-  struct Close {
-    void operator()(std::FILE* f) const { std::fclose(f); }
-  };
-  [[noreturn]] void fail() const {
-    throw FileError(
-        fmt::format("'{}' could not be written whole (the disk may be full)", path_.string()));
-  }
-  fs::path path_, partial_;
-  std::unique_ptr<std::FILE, Close> file_;
-};
 
 void make_folder(const fs::path& folder) {
   std::error_code error;
@@ -111,9 +71,7 @@ std::string tensors(const char* file, double time, const Tensors& values, double
 
 void write_gravity(const fs::path& folder, const FemFrame& rest) {
   const auto one = [&folder](const char* name, const std::string& row) {
-    TextFile file(folder / name);
-    file.write(row);
-    file.finish();
+    write_file(folder / name, row);
   };
   one("Gstress.out", tensors("Gstress.out", rest.time, rest.stress, kKiloPascal));
   one("Gstrain.out", tensors("Gstrain.out", rest.time, rest.strain, 1.0));
@@ -132,7 +90,7 @@ double lost_zz(const FemFrame& frame) {
 
 void write_mesh_tables(const fs::path& folder, const QuadMesh& mesh) {
   make_folder(folder);
-  TextFile nodes(folder / "nodeinfo.dat"), elements(folder / "elementinfo.dat");
+  OutputFile nodes(folder / "nodeinfo.dat"), elements(folder / "elementinfo.dat");
   for (std::size_t i = 0; i < mesh.num_nodes(); ++i)
     nodes.write(fmt::format("{} {} {}\n", mesh.node_tags[i], mesh.nodes[i][0], mesh.nodes[i][1]));
   for (std::size_t e = 0; e < mesh.num_elements(); ++e) {
@@ -141,8 +99,8 @@ void write_mesh_tables(const fs::path& folder, const QuadMesh& mesh) {
                                mesh.node_tags[n[1]], mesh.node_tags[n[2]], mesh.node_tags[n[3]],
                                mesh.element_material[e]));
   }
-  nodes.finish();
-  elements.finish();
+  nodes.commit();
+  elements.commit();
 }
 
 std::vector<std::string> write_opensees_recorders(const fs::path& folder,
@@ -151,7 +109,7 @@ std::vector<std::string> write_opensees_recorders(const fs::path& folder,
   write_gravity(folder, history.gravity());
   double lost = lost_zz(history.gravity());
   if (!history.times().empty()) {
-    TextFile displacement(folder / "displacement.out"), velocity(folder / "velocity.out"),
+    OutputFile displacement(folder / "displacement.out"), velocity(folder / "velocity.out"),
         pressure(folder / "porePressure.out"), stress(folder / "stress.out"),
         strain(folder / "strain.out");
     for (std::size_t i = 0; i < history.times().size(); ++i) {
@@ -163,7 +121,7 @@ std::vector<std::string> write_opensees_recorders(const fs::path& folder,
       strain.write(tensors("strain.out", f.time, f.strain, 1.0));
       lost = std::max(lost, lost_zz(f));
     }
-    for (TextFile* file : {&displacement, &velocity, &pressure, &stress, &strain}) file->finish();
+    for (OutputFile* file : {&displacement, &velocity, &pressure, &stress, &strain}) file->commit();
   }
   std::vector<std::string> notes;
   if (lost > 1.0)

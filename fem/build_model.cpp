@@ -11,12 +11,7 @@ namespace {
 Material make_material(const std::string& name, const FemMaterialConfig& c) {
   Material m;
   m.name = name;
-  if (c.pm4sand)
-    m.law = *c.pm4sand;
-  else if (c.mohr_coulomb)
-    m.law = *c.mohr_coulomb;
-  else
-    m.law = *c.linear_elastic;
+  m.law = flowslide::make_material(c.laws, name);
   m.density = c.density;
   m.porosity = c.void_ratio / (1.0 + c.void_ratio);
   m.permeability = c.permeability;

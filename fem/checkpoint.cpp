@@ -2,11 +2,13 @@
 
 #include "model/checkpoint_file.hpp"
 
+#include <algorithm>
+
 namespace flowslide::fem {
 namespace {
 
 // Changes whenever the list of fields below changes.
-constexpr std::uint64_t kFields = 0x7368616b65637032;
+constexpr std::uint64_t kFields = 0x7368616b65637033;
 
 /// One list of fields for both directions: `Archive` writes or reads each. The forces carry the
 /// damping of the step that made them, so they belong to the state.
@@ -22,8 +24,7 @@ void transfer_fields(Archive& a, S& s, Run& run) {
   a.array(t.stress);
   a.array(t.hourglass_x);
   a.array(t.hourglass_y);
-  a.array(t.pm4sand);
-  a.array(t.mohr_coulomb);
+  std::apply([&](auto&... states) { (a.array(states.of), ...); }, t.laws);
   a.value(t.last_dt);
   a.value(t.energy);
   a.value(t.pending);
@@ -35,6 +36,22 @@ void transfer_fields(Archive& a, S& s, Run& run) {
   a.value(s.counters);
   a.array(s.entry_force);
 }
+
+/// Gives the lengths of the arrays in the list.
+struct Lengths {
+  std::vector<std::size_t> found;
+  void value(const auto&) {}
+  void array(const auto& x) { found.push_back(x.size()); }
+};
+
+std::vector<std::size_t> array_lengths(const Solver& s, const RunState& run) {
+  Lengths lengths;
+  transfer_fields(lengths, s, run);
+  return lengths.found;
+}
+
+/// Above what counters that are reset every few steps can reach.
+constexpr int kMostSteps = 1000;
 
 }  // namespace
 
@@ -77,8 +94,23 @@ void read_checkpoint(const std::filesystem::path& path, const std::string& finge
   in.array(found);
   if (std::string(found.begin(), found.end()) != fingerprint)
     in.refuse("it belongs to a run with another section, motion or other settings");
+  const std::vector<std::size_t> lengths = array_lengths(s, run);
   transfer_fields(in, s, run);
   in.finish();
+  if (array_lengths(s, run) != lengths) in.refuse("its arrays do not fit this section");
+}
+
+void check_progress(const std::filesystem::path& path, const Solver& s, const RunState& run,
+                    double end, double output_interval) {
+  const double slack = 1e-6 * output_interval, recorded = static_cast<double>(run.output - 1);
+  const bool in_order =
+      run.output >= 1 && s.state.time >= recorded * output_interval - slack &&
+      s.state.time <= std::min(end, (recorded + 1.0) * output_interval) + slack &&
+      s.state.step > 0 && s.dt > 0.0 && s.dt <= end + output_interval && s.state.last_dt >= 0.0 &&
+      run.since >= 0 && run.since <= kMostSteps && run.implicit.halvings >= 0 &&
+      run.implicit.halvings <= kMostSteps && run.implicit.in_a_row >= 0 &&
+      run.implicit.in_a_row <= kMostSteps;
+  if (!in_order) refuse_checkpoint(path, "its times, steps or counts cannot be those of this run");
 }
 
 }  // namespace flowslide::fem

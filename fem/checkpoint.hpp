@@ -30,9 +30,14 @@ std::string fingerprint(const SectionMesh& section, const GroundMotion& motion,
 void write_checkpoint(const std::filesystem::path& path, const std::string& fingerprint,
                       const Solver& s, const RunState& run);
 
-/// Fills what a run changes. Throws FileError if the file is damaged or belongs to a run with
-/// another fingerprint.
+/// Fills what a run changes. Throws FileError if the file is damaged, belongs to a run with another
+/// fingerprint, or holds what this run cannot have.
 void read_checkpoint(const std::filesystem::path& path, const std::string& fingerprint, Solver& s,
                      RunState& run);
+
+/// The rest of that check: its time belongs to its number of recorded states, which are
+/// `output_interval` apart until `end` [s]. Throws FileError.
+void check_progress(const std::filesystem::path& path, const Solver& s, const RunState& run,
+                    double end, double output_interval);
 
 }  // namespace flowslide::fem

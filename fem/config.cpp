@@ -4,16 +4,7 @@ namespace flowslide {
 
 void check(const FemConfig& c) {
   validate(!c.materials.empty(), "materials is empty (every element needs one)");
-  for (const auto& [name, m] : c.materials) {
-    const int laws = int{m.pm4sand.has_value()} + int{m.mohr_coulomb.has_value()} +
-                     int{m.linear_elastic.has_value()};
-    validate(laws == 1,
-             "material {} has {} laws (exactly one decides) give one of pm4sand, mohr_coulomb and "
-             "linear_elastic",
-             name, laws);
-    if (m.pm4sand) (void)PM4Sand::constants(*m.pm4sand);
-    if (m.mohr_coulomb) check(*m.mohr_coulomb);
-  }
+  for (const auto& [name, m] : c.materials) (void)make_material(m.laws, name);
   validate(c.base.shear_wave_velocity.has_value() == c.base.density.has_value(),
            "base has one of shear_wave_velocity and density (a compliant base needs both) give "
            "both, or neither for a rigid base");
@@ -51,9 +42,7 @@ void Schema<FemMaterialConfig>::describe(FieldVisitor& v, FemMaterialConfig& c) 
   v.quantity("k0", c.k0, Dim::none, {.min = 0.0, .below = 1.0},
              "horizontal over vertical effective stress of level ground");
   v.flag("drained", c.drained, "no pore pressure in this soil at any time");
-  v.group("pm4sand", c.pm4sand, Schema<PM4Sand::Params>::doc);
-  v.group("mohr_coulomb", c.mohr_coulomb, Schema<MohrCoulomb::Params>::doc);
-  v.group("linear_elastic", c.linear_elastic, Schema<LinearElastic::Params>::doc);
+  describe_laws(v, c.laws);
 }
 
 void Schema<WaterConfig>::describe(FieldVisitor& v, WaterConfig& c) {
@@ -128,7 +117,8 @@ void Schema<IntegrationConfig>::describe(FieldVisitor& v, IntegrationConfig& c) 
              "a step that does not converge is halved down to this, then the run ends");
   v.quantity("tolerance", c.tolerance, Dim::none, {.above = 0.0},
              "largest force out of balance at a node, of its weight");
-  v.integer("max_iterations", c.max_iterations, {.min = 2}, "of a step before it is halved");
+  v.integer("max_iterations", c.max_iterations, {.min = 2, .max = 1000},
+            "of a step before it is halved");
   v.quantity("theta", c.theta, Dim::none, {.min = 0.5, .max = 1.0},
              "weight of the end of the step: 0.5 the trapezoidal rule, 1 Euler's, which damps");
 }

@@ -18,9 +18,7 @@ struct FemMaterialConfig {
   std::array<double, 2> permeability{kUnset, kUnset};  ///< horizontal, vertical [m/s]
   double k0 = 0.5;
   bool drained = false;
-  std::optional<PM4Sand::Params> pm4sand;
-  std::optional<MohrCoulomb::Params> mohr_coulomb;
-  std::optional<LinearElastic::Params> linear_elastic;
+  LawSettings<ShakingLaws> laws;
 };
 
 struct WaterConfig {

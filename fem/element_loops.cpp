@@ -32,33 +32,23 @@ void deform(Solver& s, std::int32_t begin, std::int32_t end, double& largest) {
 
 namespace {
 
-void update_stress(Solver& s, std::int32_t e, Counters& counters) {
+template <class M>
+void update_stress(Solver& s, std::size_t e, Counters& counters) {
   const double* d = &s.strain[3 * e];
   const StrainIncrement<2> de{{d[0], d[1], 0.0, d[2]}};
-  Stress<2>& stress = s.state.stress[e];
-  const std::int32_t m = s.layout.material[e];
-  const auto& begin = s.layout.law_begin;
-  const auto element = static_cast<std::size_t>(e);
-  if (element < begin[1]) {
-    PM4Sand::State& state = s.state.pm4sand[e];
-    const PM4Sand::Update r = PM4Sand::update(s.laws.pm4sand[m], state, stress, de);
-    stress = r.stress;
-    state = r.state;
+  typename M::State& state = state_of<M>(s, e);
+  const auto r = M::update(constants_of<M>(s, s.layout.material[e]), state, s.state.stress[e], de);
+  s.state.stress[e] = r.stress;
+  state = r.state;
+  if constexpr (requires { r.sub_steps; }) {
     counters.sub_steps += r.sub_steps;
     counters.rejected += r.rejected;
     counters.floored += r.floored;
-  } else if (element < begin[2]) {
-    MohrCoulomb::State& state = s.state.mohr_coulomb[element - begin[1]];
-    const auto r = MohrCoulomb::update(s.laws.mohr_coulomb[m], state, stress, de);
-    stress = r.stress;
-    state = r.state;
-  } else {
-    stress = hooke(s.laws.linear_elastic[m].elastic, stress, de);
   }
 }
 
 /// Takes back hourglass displacement beyond the strength of the soil.
-void yield_hourglass(Solver& s, std::int32_t e) {
+void yield_hourglass(Solver& s, std::size_t e) {
   const Stress<2>& stress = s.state.stress[e];
   const auto [cohesion, friction] = s.hourglass_strength[s.layout.material[e]];
   const double p = std::max(0.0, -0.5 * (stress[0] + stress[1]));
@@ -72,12 +62,15 @@ void yield_hourglass(Solver& s, std::int32_t e) {
 }  // namespace
 
 void update_stresses(Solver& s, std::int32_t begin, std::int32_t end, Solver::ChunkSums& sums) {
-  for (std::int32_t e = begin; e < end; ++e) {
-    update_stress(s, e, sums.counters);
-    if (!s.hourglass_strength.empty()) yield_hourglass(s, e);
-    const Stress<2>& stress = s.state.stress[e];
-    if (!std::isfinite(stress[0] + stress[1] + stress[3]) && sums.failed < 0) sums.failed = e;
-  }
+  each_law(s.layout, begin, end, [&]<class M>(std::size_t first, std::size_t last) {
+    for (std::size_t e = first; e < last; ++e) {
+      update_stress<M>(s, e, sums.counters);
+      if (!s.hourglass_strength.empty()) yield_hourglass(s, e);
+      const Stress<2>& stress = s.state.stress[e];
+      if (!std::isfinite(stress[0] + stress[1] + stress[3]) && sums.failed < 0)
+        sums.failed = static_cast<std::int32_t>(e);
+    }
+  });
 }
 
 void flow(Solver& s, std::int32_t begin, std::int32_t end) {

@@ -1,8 +1,10 @@
 #include "fem/factor.hpp"
 
 #include "core/check.hpp"
+#include "core/memory.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace flowslide::fem {
@@ -63,6 +65,16 @@ std::vector<std::int32_t> cuthill_mckee(const Sparse& m) {
   return order;
 }
 
+/// Sum of a_k b_k in eight partial sums, which registers of any width can hold.
+double dot(const double* a, const double* b, std::int32_t count) {
+  std::array<double, 8> part{};
+  std::int32_t k = 0;
+  for (; k + 8 <= count; k += 8)
+    for (std::size_t i = 0; i < 8; ++i) part[i] += a[k + i] * b[k + i];
+  for (std::size_t i = 0; k < count; ++i, ++k) part[i] += a[k] * b[k];
+  return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+}
+
 }  // namespace
 
 BandFactor::BandFactor(const Sparse& pattern) : n_(static_cast<std::int32_t>(pattern.rows())) {
@@ -72,6 +84,10 @@ BandFactor::BandFactor(const Sparse& pattern) : n_(static_cast<std::int32_t>(pat
   for (std::int32_t c = 0; c < pattern.outerSize(); ++c)
     for (Sparse::InnerIterator it(pattern, c); it; ++it)
       width_ = std::max(width_, std::abs(position_[it.row()] - position_[c]));
+  const double bytes = 8.0 * n_ * (width_ + 1.0);
+  if (bytes > 1e8)
+    need_memory(bytes, fmt::format("a system of {} unknowns, {} wide,", n_, width_),
+                "use larger elements");
   rows_.resize(static_cast<std::size_t>(n_) * (width_ + 1));
   inverse_.resize(n_);
   work_.resize(n_);
@@ -117,11 +133,7 @@ void BandFactor::solve(double* b) {
   for (std::int32_t i = 0; i < n_; ++i) {
     const std::int32_t first = std::max(0, i - w), count = i - first;
     const double* row = &rows_[static_cast<std::size_t>(i) * (w + 1)] + (w - count);
-    const double* known = x + first;
-    double sum = 0.0;
-#pragma omp simd reduction(+ : sum)
-    for (std::int32_t k = 0; k < count; ++k) sum += row[k] * known[k];
-    x[i] = (x[i] - sum) * inverse_[i];
+    x[i] = (x[i] - dot(row, x + first, count)) * inverse_[i];
   }
   for (std::int32_t i = n_; i-- > 0;) {
     const std::int32_t first = std::max(0, i - w), count = i - first;

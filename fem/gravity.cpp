@@ -63,10 +63,23 @@ Eigen::VectorXd elastic_displacements(const Solver& s) {
   return all;
 }
 
-/// Out-of-plane stress of elastic plane strain; PM4Sand has its own mean stress instead.
 double out_of_plane(const Material& m, double sxx, double syy) {
-  return std::holds_alternative<PM4Sand::Params>(m.law) ? 0.5 * (sxx + syy)
-                                                        : m.gravity_poisson * (sxx + syy);
+  return std::visit(
+      [&]<class M>(const flowslide::Material<M>&) {
+        return rest_out_of_plane<M>(m.gravity_poisson, sxx, syy);
+      },
+      m.law);
+}
+
+/// The state of the law of element `e` at its stress at rest.
+void set_rest_state(Solver& s, std::size_t e, double volumetric_strain) {
+  const std::int32_t material = s.layout.material[e];
+  std::visit(
+      [&]<class M>(const flowslide::Material<M>& law) {
+        state_of<M>(s, e) = rest_state<M>(law.params, constants_of<M>(s, material),
+                                          s.state.stress[e], volumetric_strain);
+      },
+      s.model.materials[material].law);
 }
 
 }  // namespace
@@ -82,8 +95,7 @@ void solve_gravity(Solver& s, const GravitySettings& settings) {
   const Eigen::VectorXd u = elastic_displacements(s);
   const Elements& g = s.layout.elements;
   for (std::size_t e = 0; e < g.size(); ++e) {
-    const std::int32_t m = s.layout.material[e];
-    const Material& material = s.model.materials[m];
+    const Material& material = s.model.materials[s.layout.material[e]];
     Eigen::Matrix<double, 8, 1> local;
     for (int i = 0; i < 8; ++i) local[i] = u[s.layout.dofs[e][i]];
     const Eigen::Vector3d strain = strain_matrix(g, e) * local;
@@ -97,9 +109,7 @@ void solve_gravity(Solver& s, const GravitySettings& settings) {
     }
     s.state.hourglass_x[e] = hx;
     s.state.hourglass_y[e] = hy;
-    if (e < s.layout.law_begin[1])
-      s.state.pm4sand[e] = PM4Sand::initial_state(
-          s.laws.pm4sand[m], s.state.stress[e], settings.compacts ? -(strain[0] + strain[1]) : 0.0);
+    set_rest_state(s, e, settings.compacts ? -(strain[0] + strain[1]) : 0.0);
   }
 }
 

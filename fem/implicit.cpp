@@ -1,5 +1,6 @@
 #include "fem/implicit.hpp"
 
+#include "core/elementary.hpp"
 #include "fem/element_loops.hpp"
 
 #include <algorithm>
@@ -118,8 +119,7 @@ ImplicitSteps::Residual ImplicitSteps::evaluate(Solver& s, const Base& base) {
   t.stress = start_.stress;
   t.hourglass_x = start_.hourglass_x;
   t.hourglass_y = start_.hourglass_y;
-  t.pm4sand = start_.pm4sand;
-  t.mohr_coulomb = start_.mohr_coulomb;
+  t.laws = start_.laws;
   for (std::int32_t u = 0; u < s.model.num_dofs; ++u) {
     const std::int32_t row = matrix_.row_of()[u];
     middle_[u] = (1.0 - theta) * start_.velocity[u] + theta * (row >= 0 ? x_[row] : base.end);
@@ -153,7 +153,8 @@ ImplicitSteps::Residual ImplicitSteps::evaluate(Solver& s, const Base& base) {
   return r;
 }
 
-bool ImplicitSteps::converge(Solver& s, ImplicitRecord& record, const Base& base) {
+bool ImplicitSteps::converge(Solver& s, ImplicitRecord& record, const Base& base,
+                             const Progress& progress) {
   for (std::int32_t u = 0; u < s.model.num_dofs; ++u)
     if (const std::int32_t row = matrix_.row_of()[u]; row >= 0) x_[row] = start_.velocity[u];
   for (std::size_t i = 0; i < start_.pressure.size(); ++i)
@@ -161,7 +162,7 @@ bool ImplicitSteps::converge(Solver& s, ImplicitRecord& record, const Base& base
       x_[matrix_.motions() + q] = start_.pressure[i];
   matrix_.factorise(s, s.dt, settings_.theta);
   anderson_.restart();
-  for (int i = 1; i <= settings_.max_iterations; ++i) {
+  for (int i = 1; i <= settings_.max_iterations && !progress.should_stop(); ++i) {
     ++record.iterations;
     const Residual r = evaluate(s, base);
     if (!std::isfinite(r.largest)) return false;
@@ -190,7 +191,7 @@ void ImplicitSteps::accept(Solver& s, const Base& base) {
     energy.kinetic += 0.5 * m * after * after;
     energy.deformation += s.dt * internal_[u] * v;
     // what the rule itself takes from the motion where theta is above 1/2 is damping, too
-    energy.damping += s.dt * lost * v + (settings_.theta - 0.5) * m * std::pow(after - before, 2);
+    energy.damping += s.dt * lost * v + (settings_.theta - 0.5) * m * pow(after - before, 2);
     energy.weight += s.dt * weight * v;
     energy.base += s.dt * drive * v;
     t.velocity[u] = after;
@@ -208,9 +209,12 @@ void ImplicitSteps::accept(Solver& s, const Base& base) {
   ++t.step;
 }
 
-void ImplicitSteps::advance(Solver& s, ImplicitRecord& record, double left,
-                            const std::function<double(double)>& ground) {
+bool ImplicitSteps::advance(Solver& s, ImplicitRecord& record, double left,
+                            const std::function<double(double)>& ground, const Progress& progress) {
   start_ = s.state;
+  const ImplicitRecord record_before = record;
+  const auto counters_before = s.counters;
+  const double dt_before = s.dt;
   const double theta = settings_.theta, now = s.state.time;
   Base base;
   for (;;) {
@@ -218,8 +222,14 @@ void ImplicitSteps::advance(Solver& s, ImplicitRecord& record, double left,
     s.dt = left / std::max(1.0, std::ceil(left / allowed - 1e-9));
     base.end = ground(now + s.dt);
     base.mean = (1.0 - theta) * ground(now) + theta * base.end;
-    if (converge(s, record, base)) break;
+    if (converge(s, record, base, progress)) break;
     s.state = start_;
+    if (progress.should_stop()) {
+      record = record_before;
+      s.counters = counters_before;
+      s.dt = dt_before;
+      return false;
+    }
     ++record.cut;
     if (0.5 * allowed < settings_.smallest_step) {
       const std::int64_t tag =
@@ -240,6 +250,7 @@ void ImplicitSteps::advance(Solver& s, ImplicitRecord& record, double left,
     --record.halvings;
     record.in_a_row = 0;
   }
+  return true;
 }
 
 }  // namespace flowslide::fem

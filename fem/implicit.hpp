@@ -1,4 +1,5 @@
 #pragma once
+#include "core/progress.hpp"
 #include "fem/anderson.hpp"
 #include "fem/coupled_matrix.hpp"
 
@@ -32,9 +33,9 @@ class ImplicitSteps {
   /// One step with the present moduli, not beyond `left` [s], over a base with the velocity
   /// ground(t) [m/s]. Afterwards the velocities of the state are those at its time. Throws
   /// NumericsError naming time, step and element where no step that is allowed converges; the state
-  /// is then that before it.
-  void advance(Solver& s, ImplicitRecord& record, double left,
-               const std::function<double(double)>& ground);
+  /// is then that before it. False where a stop was asked for on the way: nothing has changed.
+  bool advance(Solver& s, ImplicitRecord& record, double left,
+               const std::function<double(double)>& ground, const Progress& progress = {});
 
  private:
   struct Base {
@@ -44,7 +45,8 @@ class ImplicitSteps {
     double largest = 0.0;       ///< over the tolerance; infinite where soil deforms too much
     std::int32_t element = -1;  ///< one at that unknown
   };
-  [[nodiscard]] bool converge(Solver& s, ImplicitRecord& record, const Base& base);
+  [[nodiscard]] bool converge(Solver& s, ImplicitRecord& record, const Base& base,
+                              const Progress& progress);
   /// Forces and flows of the trial in `x_`; leaves the laws of `s` at the end of the step.
   [[nodiscard]] Residual evaluate(Solver& s, const Base& base);
   [[nodiscard]] bool follow_soil(Solver& s);

@@ -1,20 +1,17 @@
 #pragma once
-#include "constitutive/linear_elastic.hpp"
-#include "constitutive/mohr_coulomb.hpp"
-#include "constitutive/pm4sand.hpp"
+#include "constitutive/materials.hpp"
 #include "model/mesh.hpp"
 
 #include <array>
 #include <cstdint>
 #include <string>
-#include <variant>
 #include <vector>
 
 /// A saturated section as the solver sees it: elements, materials, numbered unknowns, loads.
 /// fem/build_model.hpp makes one from a section mesh and settings. docs/theory/fem.md
 namespace flowslide::fem {
 
-using Law = std::variant<PM4Sand::Params, MohrCoulomb::Params, LinearElastic::Params>;
+using Law = ShakingLaws::Variant<flowslide::Material>;
 
 struct Material {
   std::string name;

@@ -23,6 +23,38 @@ namespace {
 using namespace fem;
 
 constexpr int kModuliInterval = 16;  ///< steps between looks at stiffness and step
+/// Steps, recorded states and bytes of them above which a run is not begun, and days.
+constexpr double kMostSteps = 1e8, kMostFrames = 1e5, kMostBytes = 1e12, kMostDays = 365.0;
+constexpr double kElementsPerSecond = 1e6;  ///< explicit steps of a thread, for predictions of cost
+
+/// Refuses a run that would not end in any useful time.
+void check_steps(const Solver& s, double left, double dt, int threads) {
+  const double steps = left / dt;
+  const double days = steps * static_cast<double>(s.layout.elements.size()) /
+                      (kElementsPerSecond * threads) / 86400.0;
+  if (steps <= kMostSteps && days <= kMostDays) return;
+  const std::string text = fmt::format(
+      "{:.2g} s of shaking would take {:.2g} steps of {:.2g} s, about {:.2g} days (at most {:g} "
+      "steps and {:g} days are begun) check end, the stiffest soil, the water's bulk modulus and "
+      "the thinnest element, or integrate implicitly",
+      left, steps, dt, days, kMostSteps, kMostDays);
+  if (s.state.step == 0) throw InputError(text);
+  throw NumericsError(text);
+}
+
+void check_output(const FemConfig& config, double end, std::size_t nodes, std::size_t elements) {
+  const double frames = end / config.output_interval;
+  validate(frames <= kMostFrames,
+           "output_interval = {:g} s asks for {:.2g} recorded states until {:g} s (at most {:g} "
+           "are kept) raise output_interval or lower end",
+           config.output_interval, frames, end, kMostFrames);
+  const double bytes = frames * (5.0 * static_cast<double>(nodes) +
+                                 8.0 * static_cast<double>(elements)) * sizeof(double);
+  validate(bytes <= kMostBytes,
+           "output_interval = {:g} s asks for {:.3g} GB of recorded states until {:g} s (at most "
+           "{:g} GB are written) raise output_interval or lower end",
+           config.output_interval, bytes * 1e-9, end, kMostBytes * 1e-9);
+}
 
 Damping rayleigh(const FemDampingConfig& c) {
   if (c.mass) return {*c.mass, *c.stiffness};
@@ -63,7 +95,9 @@ void set_stabilisation(Solver& s, const StabilisationConfig& c) {
 /// Explicit steps below the stable one that end at the times of output.
 class ExplicitSteps {
  public:
-  ExplicitSteps(Solver& s, double courant) : courant_(courant), water_(water_frequency(s)) {}
+  /// Until `end` [s].
+  ExplicitSteps(Solver& s, double courant, double end, int threads)
+      : courant_(courant), water_(water_frequency(s)), end_(end), threads_(threads) {}
 
   void advance(Solver& s, RunState& run, double left, const Velocity& ground) {
     if (run.since++ >= kModuliInterval) {
@@ -82,31 +116,39 @@ class ExplicitSteps {
           "the stable step has fallen to {:.3g} s at {:.4f} s (soil has become extremely stiff or "
           "an element extremely small)",
           allowed, s.state.time));
+    check_steps(s, end_ - s.state.time, allowed, threads_);
     const bool fits = s.dt <= allowed && s.dt >= 0.8 * allowed;
     const double steps = left / s.dt;
     if (fits && std::abs(steps - std::round(steps)) < 1e-6 * steps && steps > 0.5) return;
     s.dt = left / std::max(1.0, std::ceil(left / (0.97 * allowed)));
   }
 
-  double courant_, water_;
+  double courant_, water_, end_;
+  int threads_;
 };
 
 /// Takes one step of the scheme that the settings name; is told the time left to the next output.
-std::function<void(Solver&, RunState&, double)> make_stepper(Solver& s, const FemConfig& config,
-                                                             const GroundMotion& motion) {
+/// False where it stopped before its end because a stop was asked for: nothing has changed.
+using Stepper = std::function<bool(Solver&, RunState&, double)>;
+
+Stepper make_stepper(Solver& s, const FemConfig& config, const GroundMotion& motion, double end,
+                     int threads, const Progress& progress) {
   const IntegrationConfig& c = config.integration;
   const auto ground = std::make_shared<const Velocity>(motion);
   if (c.scheme == IntegrationScheme::implicit) {
+    check_steps(s, end, c.step, threads);
     const auto steps = std::make_shared<ImplicitSteps>(
         s, ImplicitSettings{c.step, c.smallest_step, c.tolerance, c.max_iterations, c.theta});
-    return [=](Solver& solver, RunState& run, double left) {
+    return [=, &progress](Solver& solver, RunState& run, double left) {
       refresh_moduli(solver);
-      steps->advance(solver, run.implicit, left, [&](double t) { return ground->at(t); });
+      return steps->advance(
+          solver, run.implicit, left, [&](double t) { return ground->at(t); }, progress);
     };
   }
-  const auto steps = std::make_shared<ExplicitSteps>(s, config.courant);
+  const auto steps = std::make_shared<ExplicitSteps>(s, config.courant, end, threads);
   return [=](Solver& solver, RunState& run, double left) {
     steps->advance(solver, run, left, *ground);
+    return true;
   };
 }
 
@@ -117,17 +159,20 @@ FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const F
                  const StopRule& rule) {
   check(motion);
   omp_set_num_threads(std::max(1, threads));
+  const double end = config.end.value_or(motion.duration());
+  const std::size_t nodes = section.mesh.num_nodes(), elements = section.mesh.num_elements();
+  check_output(config, end, nodes, elements);
   Solver s = make_solver(build_model(section, config), rayleigh(config.damping));
   for (double& g : s.hourglass_shear) g *= config.stabilisation.hourglass;
+  progress.poll();
   solve_gravity(s, {config.gravity.permeability.value_or(kUnset), config.gravity.compacts});
+  progress.poll();
   FemFacts facts;
   facts.out_of_balance = out_of_balance(s);
   refresh_moduli(s);
   set_stabilisation(s, config.stabilisation);
   if (config.stabilisation.hourglass_yields) let_hourglass_yield(s);
 
-  const double end = config.end.value_or(motion.duration());
-  const std::size_t nodes = section.mesh.num_nodes(), elements = section.mesh.num_elements();
   std::vector<std::string> notes = section.notes;
   if (auto note = drained_note(section, config, s)) {
     facts.notes.push_back(*note);
@@ -135,12 +180,15 @@ FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const F
   }
   FemFrame frame;
   fill(frame, s, nodes, elements);
-  const auto step = make_stepper(s, config, motion);
+  const Stepper step = make_stepper(s, config, motion, end, std::max(1, threads), progress);
   start_motion(s);
   s.dt = 1e-12;
   RunState run{.since = kModuliInterval, .smallest_step = end};
   const std::string origin = fingerprint(section, motion, config, rule.settings);
-  if (std::filesystem::exists(paths.checkpoint)) read_checkpoint(paths.checkpoint, origin, s, run);
+  if (find_checkpoint(paths.checkpoint)) {
+    read_checkpoint(paths.checkpoint, origin, s, run);
+    check_progress(paths.checkpoint, s, run, end, config.output_interval);
+  }
   ResumableHistoryWriter history(
       paths.history, section.mesh,
       {"flowslide fem.run", "mean of xx and yy for PM4Sand, elastic plane strain for other laws",
@@ -169,9 +217,10 @@ FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const F
   while (s.state.time < end * (1.0 - 1e-9) && !facts.stopped && !facts.stopped_by_rule) {
     const double target = std::min(end, static_cast<double>(run.output) * config.output_interval);
     while (target - s.state.time > 1e-9 * config.output_interval) {
-      step(s, run, target - s.state.time);
-      run.smallest_step = std::min(run.smallest_step, s.dt);
-      run.largest_step = std::max(run.largest_step, s.dt);
+      if (step(s, run, target - s.state.time)) {
+        run.smallest_step = std::min(run.smallest_step, s.dt);
+        run.largest_step = std::max(run.largest_step, s.dt);
+      }
       if (progress.should_stop()) {
         checkpoint();
         throw Interrupted(
@@ -192,7 +241,8 @@ FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const F
     progress.report(target / end, fmt::format("{:.2f} s, step {:.3g} s", target, s.dt));
   }
   history.finish();
-  std::filesystem::remove(paths.checkpoint);
+  remove_checkpoint(paths.checkpoint);
+  history.remove_parts();
   facts.seconds = seconds_before + seconds_since(start);
   facts.end_time = s.state.time;
   facts.steps = s.state.step;

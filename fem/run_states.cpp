@@ -1,5 +1,6 @@
 #include "fem/run_states.hpp"
 
+#include "core/elementary.hpp"
 #include "fem/build_model.hpp"
 
 #include <algorithm>
@@ -64,7 +65,7 @@ double largest_displacement(const FemFrame& frame, const std::vector<std::int32_
       ground[d] += frame.displacement[i][d] / static_cast<double>(base.size());
   double largest = 0.0;
   for (const Vec2& u : frame.displacement)
-    largest = std::max(largest, std::hypot(u[0] - ground[0], u[1] - ground[1]));
+    largest = std::max(largest, hypot(u[0] - ground[0], u[1] - ground[1]));
   return largest;
 }
 

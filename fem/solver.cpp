@@ -1,8 +1,9 @@
 #include "fem/solver.hpp"
 
+#include "core/elementary.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace flowslide::fem {
 
@@ -13,31 +14,25 @@ double Energy::error() const {
 }
 
 Elasticity gravity_elasticity(const Material& m) {
-  if (const auto* pm4 = std::get_if<PM4Sand::Params>(&m.law))
-    return PM4Sand::gravity_elasticity(*pm4, m.gravity_poisson);
-  if (const auto* mc = std::get_if<MohrCoulomb::Params>(&m.law))
-    return Elasticity::from_young(mc->youngs_modulus, m.gravity_poisson);
-  return Elasticity::from_young(std::get<LinearElastic::Params>(m.law).youngs_modulus,
-                                m.gravity_poisson);
+  return std::visit(
+      [&]<class M>(const flowslide::Material<M>& law) {
+        return rest_elasticity<M>(law.params, m.gravity_poisson);
+      },
+      m.law);
 }
 
 namespace {
 
-LawConstants make_laws(const Model& model) {
-  LawConstants r;
-  r.pm4sand.resize(model.materials.size());
-  r.mohr_coulomb.resize(model.materials.size());
-  r.linear_elastic.resize(model.materials.size());
-  for (std::size_t i = 0; i < model.materials.size(); ++i) {
-    const Law& law = model.materials[i].law;
-    if (const auto* pm4 = std::get_if<PM4Sand::Params>(&law))
-      r.pm4sand[i] = PM4Sand::constants(*pm4);
-    else if (const auto* mc = std::get_if<MohrCoulomb::Params>(&law))
-      r.mohr_coulomb[i] = MohrCoulomb::constants(*mc, 1.0);
-    else
-      r.linear_elastic[i] = LinearElastic::constants(std::get<LinearElastic::Params>(law), 1.0);
-  }
-  return r;
+void set_constants(Solver& s) {
+  const std::vector<Material>& materials = s.model.materials;
+  ShakingLaws::each(
+      [&]<class M>() { std::get<LawConstants<M>>(s.laws).of.resize(materials.size()); });
+  for (std::size_t i = 0; i < materials.size(); ++i)
+    std::visit(
+        [&]<class M>(const flowslide::Material<M>& law) {
+          std::get<LawConstants<M>>(s.laws).of[i] = shaking_constants<M>(law.params);
+        },
+        materials[i].law);
 }
 
 }  // namespace
@@ -48,7 +43,7 @@ Solver make_solver(const Model& model, const Damping& damping) {
   s.model = model;
   s.layout = make_layout(model);
   s.water = make_pressure_system(model, s.layout);
-  s.laws = make_laws(model);
+  set_constants(s);
   s.damping = damping;
   const std::size_t n = s.layout.elements.size(), dofs = model.num_dofs + 1;
   s.hourglass_shear.resize(n);
@@ -61,8 +56,9 @@ Solver make_solver(const Model& model, const Damping& damping) {
   t.stress.resize(n);
   t.hourglass_x.assign(n, 0.0);
   t.hourglass_y.assign(n, 0.0);
-  t.pm4sand.resize(s.layout.law_begin[1]);
-  t.mohr_coulomb.resize(s.layout.law_begin[2] - s.layout.law_begin[1]);
+  each_law(s.layout, 0, n, [&]<class M>(std::size_t first, std::size_t last) {
+    std::get<LawStates<M>>(t.laws).of.resize(last - first);
+  });
   s.lambda.assign(n, 0.0);
   s.shear.assign(n, 0.0);
   s.strain.assign(3 * n, 0.0);
@@ -95,17 +91,10 @@ double hourglass_stress(const Solver& s, std::size_t e) {
 
 void let_hourglass_yield(Solver& s) {
   s.hourglass_strength.resize(s.model.materials.size());
-  for (std::size_t m = 0; m < s.model.materials.size(); ++m) {
-    const Law& law = s.model.materials[m].law;
-    if (std::holds_alternative<PM4Sand::Params>(law)) {
-      s.hourglass_strength[m] = {0.0, 0.5 * s.laws.pm4sand[m].M};
-    } else if (const auto* mc = std::get_if<MohrCoulomb::Params>(&law)) {
-      s.hourglass_strength[m] = {mc->cohesion * std::cos(mc->friction_angle),
-                                 std::sin(mc->friction_angle)};
-    } else {
-      s.hourglass_strength[m] = {std::numeric_limits<double>::infinity(), 0.0};
-    }
-  }
+  for (std::size_t m = 0; m < s.model.materials.size(); ++m)
+    s.hourglass_strength[m] = std::visit(
+        []<class M>(const flowslide::Material<M>& law) { return M::shear_strength(law.params); },
+        s.model.materials[m].law);
   s.hourglass_rest.resize(s.layout.elements.size());
   for (std::size_t e = 0; e < s.hourglass_rest.size(); ++e)
     s.hourglass_rest[e] = hourglass_stress(s, e);
@@ -117,16 +106,12 @@ void refresh_moduli(Solver& s) {
     s.lambda[e] = c.bulk - 2.0 / 3.0 * c.shear;
     s.shear[e] = c.shear;
   };
+  each_law(l, 0, l.elements.size(), [&]<class M>(std::size_t first, std::size_t last) {
 #pragma omp parallel for schedule(static)
-  for (std::size_t e = 0; e < l.elements.size(); ++e) {
-    const std::int32_t m = l.material[e];
-    if (e < l.law_begin[1])
-      set(e, PM4Sand::elasticity(s.laws.pm4sand[m], s.state.pm4sand[e], s.state.stress[e]));
-    else if (e < l.law_begin[2])
-      set(e, s.laws.mohr_coulomb[m].elastic);
-    else
-      set(e, s.laws.linear_elastic[m].elastic);
-  }
+    for (std::size_t e = first; e < last; ++e)
+      set(e, present_elasticity<M>(constants_of<M>(s, l.material[e]), state_of<M>(s, e),
+                                   s.state.stress[e]));
+  });
 }
 
 }  // namespace flowslide::fem

@@ -39,6 +39,18 @@ struct Power {
   }
 };
 
+/// States of the elements of one law.
+template <class M>
+struct LawStates {
+  std::vector<typename M::State> of;
+};
+
+/// Constants of one law, of each material; unused entries are empty.
+template <class M>
+struct LawConstants {
+  std::vector<typename M::Constants> of;
+};
+
 /// What changes in time.
 struct State {
   double time = 0.0;  ///< [s]
@@ -48,22 +60,15 @@ struct State {
   std::vector<double> pressure;                  ///< of each node [Pa]
   std::vector<Stress<2>> stress;                 ///< effective, of each solver element [Pa]
   std::vector<double> hourglass_x, hourglass_y;  ///< hourglass displacements, gravity included [m]
-  std::vector<PM4Sand::State> pm4sand;           ///< of the elements of that law, in their order
-  std::vector<MohrCoulomb::State> mohr_coulomb;
+  ShakingLaws::Tuple<LawStates> laws;            ///< of the elements of each law, in their order
   double last_dt = 0.0;  ///< step before the present one [s]
   Energy energy;         ///< at the start of the last step
   Power pending;         ///< work of its second half of the step, counted with the next [J]
   double pending_deformation = 0.0, pending_viscous = 0.0;
 };
 
-struct LawConstants {
-  std::vector<PM4Sand::Constants> pm4sand;  ///< of each material; unused entries are empty
-  std::vector<MohrCoulomb::Constants> mohr_coulomb;
-  std::vector<LinearElastic::Constants> linear_elastic;
-};
-
 struct Counters {
-  std::int64_t sub_steps = 0;  ///< of PM4Sand, accepted
+  std::int64_t sub_steps = 0;  ///< of laws that divide their steps, accepted
   std::int64_t rejected = 0;
   std::int64_t floored = 0;  ///< that ended at the floor of mean stress
 };
@@ -72,14 +77,10 @@ struct Solver {
   Model model;
   Layout layout;
   PressureSystem water;
-  LawConstants laws;
+  ShakingLaws::Tuple<LawConstants> laws;
   Damping damping;
   std::vector<double> hourglass_shear;  ///< shear modulus of the hourglass stiffness [Pa]
-  /// Of each material: shear stress c + p sin_phi that hourglass motion may carry [Pa], [-].
-  struct Strength {
-    double cohesion = 0.0, friction = 0.0;
-  };
-  std::vector<Strength> hourglass_strength;
+  std::vector<ShearStrength> hourglass_strength;  ///< of each material; what it may carry
   std::vector<double> hourglass_rest;  ///< hourglass stress at rest, which stays admissible [Pa]
 
   State state;
@@ -108,6 +109,17 @@ struct Solver {
   };
   std::vector<UnknownSums> unknown_sums;
 };
+
+/// State of solver element `e`, and constants of a material, of law M.
+template <class M>
+typename M::State& state_of(Solver& s, std::size_t e) {
+  const std::size_t first = s.layout.law_begin[ShakingLaws::index<M>()];
+  return std::get<LawStates<M>>(s.state.laws).of[e - first];
+}
+template <class M>
+const typename M::Constants& constants_of(const Solver& s, std::int32_t material) {
+  return std::get<LawConstants<M>>(s.laws).of[material];
+}
 
 /// Elastic constants of the stage of gravity.
 Elasticity gravity_elasticity(const Material& m);

@@ -1,5 +1,7 @@
 #include "fem/time_step.hpp"
 
+#include "core/elementary.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -39,7 +41,7 @@ double soil_frequency(const Solver& s) {
     double gg = 0.0;
     for (int i = 0; i < 4; ++i)
       gg += g.gamma[i][e] * g.gamma[i][e] / (density * g.volume[e] * g.share[i][e]);
-    const double spread = std::hypot(g.hss[e] - g.htt[e], 2.0 * g.hst[e]);
+    const double spread = hypot(g.hss[e] - g.htt[e], 2.0 * g.hst[e]);
     const double hourglass = 0.5 * (g.hss[e] + g.htt[e] + spread) * s.hourglass_shear[e] * gg;
     // On parallelograms the two kinds of motion are orthogonal; elsewhere nearly so.
     worst = std::max(worst, std::max(largest(C * W), hourglass));

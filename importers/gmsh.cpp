@@ -1,6 +1,7 @@
 #include "importers/gmsh.hpp"
 
 #include "importers/gmsh_sections.hpp"
+#include "importers/mesh_faults.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -96,6 +97,32 @@ void add_quads(const GmshFile& file, const std::map<std::int64_t, std::int32_t>&
         fmt::format("{}: {} clockwise elements were reversed", file.name, reversed));
 }
 
+/// gmsh writes the elements of a surface once for each physical group that it is in.
+void check_repeated(const GmshFile& file, const SectionMesh& section) {
+  const auto pairs = repeated_elements(section.mesh);
+  if (pairs.empty()) return;
+  const auto [a, b] = pairs.front();
+  const QuadMesh& mesh = section.mesh;
+  const int of_a = mesh.element_material[a], of_b = mesh.element_material[b];
+  const std::string groups =
+      of_a == of_b
+          ? fmt::format("twice in '{}'", name_of(file, 2, of_a))
+          : fmt::format("in '{}' and in '{}'", name_of(file, 2, of_a), name_of(file, 2, of_b));
+  throw InputError(fmt::format(
+      "{}: {} elements are given twice, such as {} and {} with the same nodes, {} (their soil "
+      "would count twice) put every surface into one physical group",
+      file.name, pairs.size(), mesh.element_tags[a], mesh.element_tags[b], groups));
+}
+
+void check_joined(const GmshFile& file, const SectionMesh& section) {
+  const std::string problem = unjoined(section.mesh);
+  validate(problem.empty(),
+           "{}: {} let the surfaces share their lines: 'Coherence;' in the .geo file, "
+           "gmsh.model.geo.removeAllDuplicates() or, in a finished mesh, "
+           "gmsh.model.mesh.removeDuplicateNodes()",
+           file.name, problem);
+}
+
 void add_curves(const GmshFile& file, const std::map<std::int64_t, std::int32_t>& index,
                 SectionMesh& section) {
   using Edge = std::array<std::int32_t, 2>;
@@ -140,6 +167,8 @@ SectionMesh read_gmsh(const std::filesystem::path& path, double length) {
   } catch (const InputError& e) {
     throw InputError(fmt::format("{}: {}", file.name, e.what()));
   }
+  check_repeated(file, section);
+  check_joined(file, section);
   return section;
 }
 

@@ -1,10 +1,11 @@
 #include "importers/gmsh_sections.hpp"
 
+#include "core/odd_characters.hpp"
 #include "core/units.hpp"
 #include "importers/text_lines.hpp"
 
 #include <cmath>
-#include <cstdio>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -35,21 +36,24 @@ class Lines {
   /// Numbers of the next line; at least `least` of them.
   const std::vector<double>& numbers(std::size_t least, std::string_view what) {
     if (!next()) fail(fmt::format("the file ends where {} should stand (it was cut)", what));
+    if (split(line_, what).size() < least)
+      fail(fmt::format("{} numbers, but {} has at least {}", values_.size(), what, least));
+    return values_;
+  }
+  /// Numbers of a text with blanks between them.
+  const std::vector<double>& split(std::string_view text, std::string_view what) {
     values_.clear();
-    std::string_view rest = line_;
+    std::string_view rest = text;
     while (!rest.empty()) {
       double value = 0.0;
       std::size_t length = 0;
-      if (!parse_number(rest, value, length) || !std::isfinite(value))
-        fail(fmt::format("'{}' is not {}", line_, what));
+      if (!parse_number(rest, value, length) || !std::isfinite(value)) fail(no_numbers(what));
       values_.push_back(value);
       rest.remove_prefix(length);
       const auto first = rest.find_first_not_of(" \t");
-      if (first == 0) fail(fmt::format("'{}' is not {}", line_, what));
+      if (first == 0) fail(no_numbers(what));
       rest.remove_prefix(first == std::string_view::npos ? rest.size() : first);
     }
-    if (values_.size() < least)
-      fail(fmt::format("{} numbers, but {} has at least {}", values_.size(), what, least));
     return values_;
   }
 
@@ -57,6 +61,13 @@ class Lines {
     if (value != std::floor(value) || std::abs(value) > kLargestExactInteger)
       fail(fmt::format("{} is no whole number ({})", value, what));
     return static_cast<std::int64_t>(value);
+  }
+  /// A number of gmsh's own, which are 32 bits wide: a larger one must not become a smaller.
+  int tag(double value, std::string_view what) const {
+    const std::int64_t n = whole(value, what);
+    if (std::abs(n) > std::numeric_limits<int>::max())
+      fail(fmt::format("{} {} is larger than gmsh writes", what, n));
+    return static_cast<int>(n);
   }
   std::size_t count(double value, std::string_view what) const {
     const std::int64_t n = whole(value, what);
@@ -68,6 +79,12 @@ class Lines {
   }
 
  private:
+  [[nodiscard]] std::string no_numbers(std::string_view what) const {
+    const std::string odd = odd_characters(line_);
+    return fmt::format("'{}' {}", line_.substr(0, 60),
+                       odd.empty() ? fmt::format("is not {}", what) : odd);
+  }
+
   LineReader reader_;
   std::string_view line_;
   std::vector<double> values_;
@@ -94,11 +111,13 @@ void read_names(Lines& in, GmshFile& file) {
     if (!in.next()) in.fail("the file ends inside $PhysicalNames (it was cut)");
     const std::string line(in.text());
     const auto from = line.find('"'), to = line.rfind('"');
-    int dimension = 0, tag = 0;
-    if (from == std::string::npos || to <= from ||
-        std::sscanf(line.c_str(), "%d %d", &dimension, &tag) != 2)
+    if (from == std::string::npos || to <= from)
       in.fail(fmt::format("'{}' is not: dimension, number, \"name\"", line));
-    file.physical_names[{dimension, tag}] = line.substr(from + 1, to - from - 1);
+    const std::vector<double>& v =
+        in.split(std::string_view(line).substr(0, from), "a dimension and a number");
+    if (v.size() != 2) in.fail(fmt::format("'{}' is not: dimension, number, \"name\"", line));
+    file.physical_names[{in.tag(v[0], "dimension"), in.tag(v[1], "physical group")}] =
+        line.substr(from + 1, to - from - 1);
   }
 }
 
@@ -116,9 +135,14 @@ Entities read_entities(Lines& in) {
       const std::vector<double>& v = in.numbers(at + 1, "an entity");
       const std::size_t groups = in.count(v[at], "physical groups");
       if (v.size() < at + 1 + groups) in.fail("fewer physical groups than the line says");
+      if (dimension == 2 && groups > 1)
+        in.fail(
+            fmt::format("surface {} is in {} physical groups (one material is needed) put it "
+                        "into one",
+                        v[0], groups));
       if (groups > 0)
         physical[{dimension, in.whole(v[0], "entity")}] =
-            static_cast<int>(std::abs(in.whole(v[at + 1], "physical group")));
+            std::abs(in.tag(v[at + 1], "physical group"));
     }
   }
   return physical;
@@ -165,8 +189,8 @@ void read_elements_2(Lines& in, GmshFile& file) {
     const std::vector<double> v = in.numbers(3, "an element: number, type, number of tags, ...");
     const std::size_t tags = in.count(v[2], "tags");
     if (v.size() < 3 + tags) in.fail("fewer tags than the line says");
-    const int physical = tags > 0 ? static_cast<int>(in.whole(v[3], "physical group")) : 0;
-    add_element(in, file, v, 3 + tags, static_cast<int>(in.whole(v[1], "type")), physical);
+    const int physical = tags > 0 ? in.tag(v[3], "physical group") : 0;
+    add_element(in, file, v, 3 + tags, in.tag(v[1], "type"), physical);
   }
 }
 
@@ -174,10 +198,10 @@ void read_elements_4(Lines& in, GmshFile& file, const Entities& entities) {
   const std::vector<double> head = in.numbers(4, "blocks, elements, smallest and largest number");
   for (std::size_t b = 0; b < in.count(head[0], "blocks of elements"); ++b) {
     const std::vector<double> block = in.numbers(4, "dimension, entity, type, elements");
-    const auto group = entities.find(
-        {static_cast<int>(in.whole(block[0], "dimension")), in.whole(block[1], "entity")});
+    const auto group =
+        entities.find({in.tag(block[0], "dimension"), in.whole(block[1], "entity")});
     const int physical = group == entities.end() ? 0 : group->second;
-    const int type = static_cast<int>(in.whole(block[2], "type"));
+    const int type = in.tag(block[2], "type");
     for (std::size_t i = 0; i < in.count(block[3], "elements"); ++i)
       add_element(in, file, in.numbers(1, "an element: number and nodes"), 1, type, physical);
   }

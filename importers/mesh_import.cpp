@@ -3,6 +3,7 @@
 #include "core/check.hpp"
 #include "core/units.hpp"
 #include "importers/gmsh.hpp"
+#include "importers/mesh_faults.hpp"
 
 #include <algorithm>
 #include <set>
@@ -30,6 +31,9 @@ namespace {
 
 SectionMesh from_tables(const MeshTextConfig& config, double length) {
   MeshText text = read_mesh_text(config, length);
+  const std::string problem = unjoined(text.mesh);
+  validate(problem.empty(), "{}: {} let elements that touch name the same nodes",
+           config.nodes.path.filename().string(), problem);
   SectionMesh section;
   section.mesh = std::move(text.mesh);
   section.notes = std::move(text.notes);
@@ -42,8 +46,9 @@ SectionMesh from_tables(const MeshTextConfig& config, double length) {
 
 void rename(SectionMesh& section, const std::map<std::string, NamedTag>& names) {
   for (const auto& [name, material] : names) {
-    const auto found = std::find_if(section.materials.begin(), section.materials.end(),
-                                    [&](const MaterialName& m) { return m.tag == material.tag; });
+    const auto found =
+        std::find_if(section.materials.begin(), section.materials.end(),
+                     [tag = material.tag](const MaterialName& m) { return m.tag == tag; });
     if (found == section.materials.end()) {
       std::string tags;
       for (const MaterialName& m : section.materials) tags += fmt::format(" {}", m.tag);

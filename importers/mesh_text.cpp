@@ -1,6 +1,7 @@
 #include "importers/mesh_text.hpp"
 
 #include "core/check.hpp"
+#include "importers/mesh_faults.hpp"
 #include "importers/recorder_text.hpp"
 
 #include <algorithm>
@@ -132,7 +133,6 @@ void read_nodes(const MeshTextConfig& config, double length, MeshText& out, TagR
     tags.push_back(integer_at(table, r, tag, "node number"));
     insert_tag(seen, tags.back(), r, table, "node");
   }
-  std::vector<Vec2> sorted;
   for (const std::size_t r : ordered_rows(tags, config.recorder_order, table, out.notes)) {
     const std::vector<double>& row = table.rows[r];
     node_index.emplace(tags[r], out.mesh.nodes.size());
@@ -140,7 +140,7 @@ void read_nodes(const MeshTextConfig& config, double length, MeshText& out, TagR
     out.mesh.nodes.push_back(
         {length * row[static_cast<std::size_t>(x)], length * row[static_cast<std::size_t>(y)]});
   }
-  sorted = out.mesh.nodes;
+  std::vector<Vec2> sorted = out.mesh.nodes;
   std::sort(sorted.begin(), sorted.end());
   std::ptrdiff_t coincident = 0;
   for (std::size_t i = 1; i < sorted.size(); ++i) coincident += sorted[i] == sorted[i - 1];
@@ -236,6 +236,12 @@ void read_elements(const MeshTextConfig& config, const TagRows& node_index,
     out.mesh.element_material.push_back(static_cast<std::int32_t>(m));
   }
   check_shapes(out, table.file, config.reverse_clockwise);
+  const auto pairs = repeated_elements(out.mesh);
+  validate(pairs.empty(),
+           "{}: {} elements are given twice, such as {} and {} with the same nodes (their soil "
+           "would count twice) remove one of each",
+           table.file, pairs.size(), pairs.empty() ? 0 : out.mesh.element_tags[pairs[0][0]],
+           pairs.empty() ? 0 : out.mesh.element_tags[pairs[0][1]]);
 }
 
 }  // namespace

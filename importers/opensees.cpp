@@ -2,6 +2,7 @@
 
 #include "core/check.hpp"
 #include "core/units.hpp"
+#include "importers/mesh_faults.hpp"
 #include "importers/plausibility.hpp"
 #include "importers/recorder_columns.hpp"
 #include "importers/recorder_rows.hpp"
@@ -27,6 +28,7 @@ struct Context {
   const QuadMesh& mesh;
   Factors factors;
   std::vector<std::string>* notes;
+  std::vector<std::string>* warnings;
 
   [[nodiscard]] ColumnLayout nodal(const std::vector<std::string>& components) const {
     return {config.columns.time, components, "node", &mesh.node_tags,
@@ -39,12 +41,12 @@ struct Context {
 };
 
 // Problems of rows are an error, or the end of the usable rows.
-void apply_bad_rows(const RecorderScan& scan, BadRows policy, std::vector<std::string>& notes) {
+void apply_bad_rows(const RecorderScan& scan, BadRows policy, std::vector<std::string>& warnings) {
   if (scan.problems.empty()) return;
   const bool may_stop = policy == BadRows::stop && scan.good_rows > 0;
   if (may_stop) {
-    notes.push_back(fmt::format("{}: only the first {} of {} rows are used: {}", scan.file,
-                                scan.good_rows, scan.rows, scan.problems.front()));
+    warnings.push_back(fmt::format("{}: only the first {} of {} rows are used: {}", scan.file,
+                                   scan.good_rows, scan.rows, scan.problems.front()));
     return;
   }
   std::string text = fmt::format("{}", fmt::join(scan.problems, "\n  "));
@@ -61,8 +63,9 @@ Recorder scan_one(const Context& context, const InputFile& file, ColumnLayout la
   Recorder recorder{file.path, std::move(layout), {}};
   recorder.scan = scan_recorder(file.path, column_label(recorder.layout), tick);
   if (recorder.scan.columns > 0)
-    check_columns(recorder.scan.file, recorder.scan.columns, recorder.layout);
-  apply_bad_rows(recorder.scan, context.config.bad_rows, *context.notes);
+    check_columns(recorder.scan.file, recorder.scan.columns, recorder.layout,
+                  recorder.scan.first_column);
+  apply_bad_rows(recorder.scan, context.config.bad_rows, *context.warnings);
   context.notes->insert(context.notes->end(), recorder.scan.notes.begin(),
                         recorder.scan.notes.end());
   return recorder;
@@ -131,6 +134,36 @@ FemFrame read_gravity(const Context& context, const std::function<void(double)>&
   return frame;
 }
 
+/// A recorder that ended before the others, or whose rows the others lack.
+void warn_about_rows(const std::vector<FileTimes>& files, const AlignedRows& aligned,
+                     std::vector<std::string>& warnings) {
+  double latest = -std::numeric_limits<double>::infinity();
+  for (const FileTimes& f : files) {
+    if (split_stages(f.times).size() > 1) return;  // the choice of a stage is said by a note
+    latest = std::max(latest, f.times.back());
+  }
+  const double step = step_range(aligned.times).max;
+  for (const FileTimes& f : files)
+    if (latest - f.times.back() > 1.5 * step)
+      warnings.push_back(fmt::format(
+          "{} ends at {:.6g} s, others at {:.6g} s: what comes later is not used. Was the run "
+          "stopped before the recorder was written out (`wipe`)?",
+          f.file, f.times.back(), latest));
+  // Rows thinned by -dT are none of the others' business; rows that nothing fits are.
+  const auto common = [&](double t) {
+    return t >= aligned.times.front() && t <= aligned.times.back();
+  };
+  std::size_t usable = std::numeric_limits<std::size_t>::max();
+  for (const FileTimes& f : files)
+    usable = std::min<std::size_t>(usable, std::count_if(f.times.begin(), f.times.end(), common));
+  if (usable > aligned.times.size())
+    warnings.push_back(
+        fmt::format("{} of the rows that every recorder has up to {:.6g} s are not used: their "
+                    "times differ, or "
+                    "repeat (times with too few digits?). Record with a higher -precision.",
+                    usable - aligned.times.size(), aligned.times.back()));
+}
+
 /// The five recorders of the motion, in the order of `files`.
 struct Shaking {
   std::vector<Recorder> recorders;
@@ -159,6 +192,7 @@ Shaking scan_shaking(const Context& context, const OpenSeesShaking& files,
     times.push_back(std::move(t));
   }
   shaking.aligned = align_rows(times, files.stage);
+  warn_about_rows(times, shaking.aligned, *context.warnings);
   const std::vector<double>& common = shaking.aligned.times;
   auto& notes = *context.notes;
   notes.insert(notes.end(), shaking.aligned.notes.begin(), shaking.aligned.notes.end());
@@ -243,6 +277,20 @@ std::function<void(double)> scan_progress(Percent& percent, std::size_t files) {
   };
 }
 
+constexpr std::uintmax_t kSmallFile = 1 << 20;
+
+void append(std::vector<std::string>& all, std::vector<std::string> more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+/// Programs may tie nodes at one place to each other; this one does not know.
+std::vector<std::string> mesh_warnings(const OpenSeesConfig& config, const QuadMesh& mesh) {
+  const std::string problem = unjoined(mesh);
+  if (problem.empty()) return {};
+  return {fmt::format("{}: {} unless the model ties them.",
+                      config.mesh.nodes.path.filename().string(), problem)};
+}
+
 }  // namespace
 
 ImportReport import_opensees(const OpenSeesConfig& config, const std::filesystem::path& out,
@@ -257,11 +305,12 @@ ImportReport import_opensees(const OpenSeesConfig& config, const std::filesystem
   report.num_nodes = text.mesh.num_nodes();
   report.num_elements = text.mesh.num_elements();
 
-  const Context context{config, text.mesh, factors, &report.origin.notes};
+  const Context context{config, text.mesh, factors, &report.origin.notes, &report.warnings};
+  report.warnings = mesh_warnings(config, text.mesh);
   Percent percent(progress);
   const auto tick = scan_progress(percent, config.shaking ? 8 : 3);
   const FemFrame gravity = read_gravity(context, tick);
-  report.warnings = gravity_warnings(text.mesh, gravity);
+  append(report.warnings, gravity_warnings(text.mesh, gravity));
 
   std::optional<Shaking> shaking;
   std::optional<FrameSource> source;
@@ -273,22 +322,55 @@ ImportReport import_opensees(const OpenSeesConfig& config, const std::filesystem
     report.num_frames = shaking->aligned.times.size();
     report.time_first = shaking->aligned.times.front();
     report.time_last = shaking->aligned.times.back();
-    const auto start = start_warnings(gravity, *frame);
-    report.warnings.insert(report.warnings.end(), start.begin(), start.end());
+    append(report.warnings, start_warnings(gravity, *frame));
   }
   for (const std::string& warning : report.warnings)
     report.origin.notes.push_back("warning: " + warning);
 
+  MotionWatch watch(text.mesh);
   FemHistoryWriter writer(out, text.mesh, report.origin);
   writer.set_gravity(gravity);
   for (std::size_t i = 0; i < report.num_frames; ++i) {
     if (i > 0) frame = &source->read(i);
     writer.append(*frame);
+    watch.look_at(*frame);
     const double share = static_cast<double>(i + 1) / static_cast<double>(report.num_frames);
     percent.report(0.5 + 0.5 * share, fmt::format("t = {:.6g} s", frame->time));
   }
+  append(report.warnings, watch.warnings());
   writer.finish();
   return report;
+}
+
+ImportPreview preview_opensees(const OpenSeesConfig& config) {
+  check(config);
+  const Factors factors{unit_factor(config.units.length, Dim::length),
+                        unit_factor(config.units.time, Dim::time),
+                        unit_factor(config.units.stress, Dim::stress)};
+  ImportPreview preview{read_mesh_text(config.mesh, factors.length).mesh, {}};
+  std::vector<std::string> notes;
+  const Context context{config, preview.mesh, factors, &notes, &preview.warnings};
+  preview.warnings = mesh_warnings(config, preview.mesh);
+  bool small = true;
+  const auto look = [&](const InputFile& file, const ColumnLayout& layout) {
+    small = small && std::filesystem::file_size(file.path) < kSmallFile;
+    RecorderReader reader(file.path);
+    std::vector<double> row;
+    if (reader.next(row)) check_columns(reader.name(), row.size(), layout, {});
+  };
+  const OpenSeesColumns& c = config.columns;
+  look(config.gravity.stress, context.elemental(c.stress));
+  look(config.gravity.pore_pressure, context.nodal(c.pore_pressure));
+  if (config.gravity.strain) look(*config.gravity.strain, context.elemental(c.strain));
+  if (small) append(preview.warnings, gravity_warnings(preview.mesh, read_gravity(context, {})));
+  if (!config.shaking) return preview;
+  look(config.shaking->displacement, context.nodal(c.displacement));
+  look(config.shaking->velocity, context.nodal(c.velocity));
+  look(config.shaking->pore_pressure, context.nodal(c.pore_pressure));
+  look(config.shaking->stress, context.elemental(c.stress));
+  look(config.shaking->strain, context.elemental(c.strain));
+  if (small) scan_shaking(context, *config.shaking, {});
+  return preview;
 }
 
 }  // namespace flowslide

@@ -131,6 +131,16 @@ struct ImportReport {
 /// Checks settings that depend on each other. Throws InputError.
 void check(const OpenSeesConfig& config);
 
+/// What can be known without reading all of large files.
+struct ImportPreview {
+  QuadMesh mesh;
+  std::vector<std::string> warnings;
+};
+
+/// Reads the mesh, the first row of every recorder, and files of less than a megabyte in full: the
+/// columns must be those of the mesh. Throws what import_opensees would.
+ImportPreview preview_opensees(const OpenSeesConfig& config);
+
 /// Reads mesh, gravity row and shaking rows into a FemHistory at `out`. Every file is scanned once
 /// before anything is written, then the common rows are read again in lockstep: memory does not
 /// grow with the number of rows (but for their times). Displacement is taken as recorded, so it

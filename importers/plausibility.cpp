@@ -128,4 +128,57 @@ std::vector<std::string> start_warnings(const FemFrame& gravity, const FemFrame&
   return warnings;
 }
 
+MotionWatch::MotionWatch(const QuadMesh& mesh) : mesh_(mesh) {
+  Vec2 low = mesh.nodes.front(), high = low;
+  for (const Vec2& p : mesh.nodes)
+    for (int d = 0; d < 2; ++d) {
+      low[d] = std::min(low[d], p[d]);
+      high[d] = std::max(high[d], p[d]);
+    }
+  length_ = std::max(high[0] - low[0], high[1] - low[1]);
+  height_ = high[1] - low[1];
+}
+
+void MotionWatch::look_at(const FemFrame& frame) {
+  std::vector<Vec2> positions = mesh_.nodes;
+  for (std::size_t n = 0; n < positions.size(); ++n) {
+    const Vec2& u = frame.displacement[n];
+    const double size = std::hypot(u[0], u[1]);
+    validate(
+        size <= length_ || std::isnan(size),
+        "displacement: node {} has moved by {:.4g} m at t = {:.6g} s, farther than the section "
+        "is long ({:.4g} m) (the run had diverged, or the unit is another) check "
+        "`units.length`, or end the record before",
+        mesh_.node_tags[n], size, frame.time, length_);
+    if (size > largest_) {
+      largest_ = size;
+      largest_time_ = frame.time;
+      largest_node_ = n;
+    }
+    for (int d = 0; d < 2; ++d) positions[n][d] += u[d];
+  }
+  if (folded_ > 0) return;
+  for (std::size_t e = 0; e < mesh_.num_elements(); ++e) {
+    if (area(corners(mesh_, positions, e)) > 0.0) continue;
+    if (folded_++ == 0) folded_element_ = e;
+    folded_time_ = frame.time;
+  }
+}
+
+std::vector<std::string> MotionWatch::warnings() const {
+  std::vector<std::string> warnings;
+  if (largest_ > 0.5 * height_)
+    warnings.push_back(fmt::format(
+        "displacement: node {} has moved by {:.4g} m at t = {:.6g} s, more than half the height of "
+        "the section of {:.4g} m. Is `units.length` right?",
+        mesh_.node_tags[largest_node_], largest_, largest_time_, height_));
+  if (folded_ > 0)
+    warnings.push_back(
+        fmt::format("displacement: {} elements are folded from t = {:.6g} s on, such as {}. Later "
+                    "states cannot "
+                    "be transferred.",
+                    folded_, folded_time_, mesh_.element_tags[folded_element_]));
+  return warnings;
+}
+
 }  // namespace flowslide

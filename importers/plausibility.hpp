@@ -17,4 +17,23 @@ std::vector<std::string> gravity_warnings(const QuadMesh& mesh, const FemFrame& 
 /// or `accel` of its degree of freedom, or a gravity row of another stage, does not.
 std::vector<std::string> start_warnings(const FemFrame& gravity, const FemFrame& first);
 
+/// Follows the motion of a mesh: displacements larger than the section cannot be, those larger than
+/// half its height are odd, and elements must not fold.
+class MotionWatch {
+ public:
+  explicit MotionWatch(const QuadMesh& mesh);
+  /// Throws InputError with node and time for a displacement that cannot be.
+  void look_at(const FemFrame& frame);
+  [[nodiscard]] std::vector<std::string> warnings() const;
+
+ private:
+  const QuadMesh& mesh_;
+  double length_ = 0.0, height_ = 0.0;  ///< of the section [m]
+  double largest_ = 0.0, largest_time_ = 0.0;
+  std::size_t largest_node_ = 0;
+  std::size_t folded_ = 0;  ///< elements in the first frame that has any
+  std::size_t folded_element_ = 0;
+  double folded_time_ = 0.0;
+};
+
 }  // namespace flowslide

@@ -16,11 +16,32 @@ std::string factorise(std::size_t columns, std::size_t offset, std::size_t width
                      static_cast<double>(values) / static_cast<double>(width));
 }
 
-std::string likely_cause(std::size_t columns, const ColumnLayout& layout) {
+/// Increases by equal steps, but for rounding: time does, values of a shaken section do not.
+bool is_time(std::span<const double> column) {
+  if (column.size() < 3) return false;
+  const double step = (column.back() - column.front()) / static_cast<double>(column.size() - 1);
+  for (std::size_t i = 1; i < column.size(); ++i)
+    if (!(column[i] - column[i - 1] > 0.5 * step && column[i] - column[i - 1] < 2.0 * step))
+      return false;
+  return step > 0.0;
+}
+
+std::string likely_cause(std::size_t columns, const ColumnLayout& layout,
+                         std::span<const double> first_column) {
   const std::size_t n = layout.tags->size();
   const std::size_t width = layout.width();
-  if (layout.time && columns == width * n)
-    return "There is no time column: record with -time, or set `columns.time: false`";
+  if (layout.time && columns == width * n) {
+    const std::string missing = fmt::format(
+        "one {} is missing: the recorder left it out, and the "
+        "table must list exactly the recorded ones",
+        layout.noun);
+    if (width == 1 && is_time(first_column))
+      return fmt::format("The first column is time, so {}", missing);
+    const std::string no_time =
+        "There is no time column: record with -time, or set `columns.time: false`";
+    return width == 1 && first_column.size() < 3 ? fmt::format("{}. Or {}", no_time, missing)
+                                                 : no_time;
+  }
   if (!layout.time && columns == 1 + width * n)
     return "There is a time column: set `columns.time: true`";
   if (columns == 2 * layout.columns())
@@ -48,7 +69,8 @@ ColumnLabel column_label(const ColumnLayout& layout) {
   };
 }
 
-void check_columns(const std::string& file, std::size_t columns, const ColumnLayout& layout) {
+void check_columns(const std::string& file, std::size_t columns, const ColumnLayout& layout,
+                   std::span<const double> first_column) {
   if (columns == layout.columns()) return;
   const std::size_t n = layout.tags->size();
   validate(!(layout.time && columns == 1),
@@ -62,7 +84,7 @@ void check_columns(const std::string& file, std::size_t columns, const ColumnLay
       "{}: {} columns = {} (or {} {} time), but {} has {} {}s, which makes {} columns. {}", file,
       columns, layout.time ? with_time : without, layout.time ? without : with_time,
       layout.time ? "without" : "with", layout.mesh_file, n, layout.noun, layout.columns(),
-      likely_cause(columns, layout)));
+      likely_cause(columns, layout, first_column)));
 }
 
 Component::Component(const ColumnLayout& layout, std::string_view name)

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,8 +27,10 @@ struct ColumnLayout {
 ColumnLabel column_label(const ColumnLayout& layout);
 
 /// Throws InputError that shows how the number of columns factorises, with and without a time
-/// column, and what is the likely cause.
-void check_columns(const std::string& file, std::size_t columns, const ColumnLayout& layout);
+/// column, and what is the likely cause. `first_column`, as far as it was read, tells a time column
+/// from values.
+void check_columns(const std::string& file, std::size_t columns, const ColumnLayout& layout,
+                   std::span<const double> first_column = {});
 
 /// One component of an entity: the mean over the columns of its name, which must be present().
 class Component {

@@ -1,6 +1,7 @@
 #include "importers/recorder_text.hpp"
 
 #include "core/check.hpp"
+#include "core/odd_characters.hpp"
 #include "core/units.hpp"
 #include "importers/recorder_times.hpp"
 
@@ -46,8 +47,12 @@ bool parse_token(std::string_view token, double& value) {
 std::string explain_token(std::string_view token, std::size_t column) {
   constexpr std::size_t kShown = 24;
   const std::string shown(token.substr(0, kShown));
-  std::string_view why = "is not a number";
-  if (token.empty()) {
+  std::string why = "is not a number";
+  const bool ascii = std::all_of(token.begin(), token.end(),
+                                 [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+  if (const std::string odd = odd_characters(token); !ascii && !odd.empty()) {
+    why = odd;
+  } else if (token.empty()) {
     why = "is empty (two separators in a row)";
   } else if (token.find_first_not_of('*') == std::string_view::npos) {
     why = "is a Fortran overflow (the number did not fit its field) record with more digits";

@@ -1,6 +1,7 @@
 #include "importers/text_lines.hpp"
 
 #include "core/check.hpp"
+#include "core/files.hpp"
 
 #include <algorithm>
 #include <array>
@@ -56,6 +57,8 @@ constexpr auto kByteClass = [] {
 Byte byte_class(char c) { return kByteClass[static_cast<unsigned char>(c)]; }
 
 constexpr std::size_t kBlock = 1 << 18;
+/// Two million numbers; a compressed line without an end would fill the memory.
+constexpr std::size_t kLongestLine = std::size_t{64} << 20;
 
 void check_is_file(const fs::path& path) {
   std::error_code error;
@@ -69,6 +72,7 @@ void check_is_file(const fs::path& path) {
     throw FileError(fmt::format("{}: cannot be opened ({})", path.string(), error.message()));
   if (status.type() == fs::file_type::directory)
     throw FileError(fmt::format("{}: is a folder (a file is expected)", path.string()));
+  expect_regular_file(path);
 }
 
 }  // namespace
@@ -158,6 +162,11 @@ struct LineReader::Impl {
       const auto stop =
           std::find_if(first, last, [](char c) { return byte_class(c) != Byte::text; });
       line.append(first, stop);
+      if (line.size() > kLongestLine)
+        throw InputError(
+            fmt::format("{}: the line has more than {} MiB (no recorder has so many columns) is "
+                        "this a text file?",
+                        place(), kLongestLine >> 20u));
       used = static_cast<std::size_t>(stop - block.begin());
       if (stop == last) continue;
       if (byte_class(*stop) != Byte::line_end) refuse(byte_class(*stop));

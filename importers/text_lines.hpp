@@ -7,8 +7,8 @@
 
 namespace flowslide {
 
-/// Reads a text file line by line, plain or gzip, in constant memory and without a limit on the
-/// length of a line. Lines end in LF, CRLF or CR; a UTF-8 byte order mark is skipped. What is not
+/// Reads a text file line by line, plain or gzip, in constant memory; lines have up to 64 MiB and
+/// end in LF, CRLF or CR; a UTF-8 byte order mark is skipped. What is not
 /// text (HDF5, XML, archives, UTF-16, binary recorders, NUL bytes) is refused with an explanation.
 class LineReader {
  public:

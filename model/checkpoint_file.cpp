@@ -2,43 +2,62 @@
 
 #include "core/check.hpp"
 
-#include <array>
-
 namespace flowslide {
 namespace {
 
 constexpr std::size_t kDigits = 64;  ///< of the checksum
 
+std::filesystem::path folder_of(const std::filesystem::path& path) {
+  return path.parent_path().empty() ? "." : path.parent_path();
+}
+
 }  // namespace
 
-CheckpointWriter::CheckpointWriter(std::filesystem::path path, std::uint64_t fields)
-    : path_(std::move(path)), partial_(path_) {
-  partial_ += ".partial";
-  out_.open(partial_, std::ios::binary);
+bool find_checkpoint(const std::filesystem::path& path) {
+  remove_leftovers(folder_of(path));
+  std::error_code error;
+  const auto status = std::filesystem::symlink_status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found) return false;
+  if (error)
+    throw FileError(
+        fmt::format("the checkpoint '{}' cannot be read ({})", path.string(), error.message()));
+  return true;
+}
+
+void remove_checkpoint(const std::filesystem::path& path) {
+  remove_path(path);
+  sync_path(folder_of(path));
+}
+
+void refuse_checkpoint(const std::filesystem::path& path, std::string_view why) {
+  throw FileError(
+      fmt::format("the checkpoint '{}' cannot be continued ({}) delete it to start the stage from "
+                  "its beginning",
+                  path.string(), why));
+}
+
+CheckpointWriter::CheckpointWriter(const std::filesystem::path& path, std::uint64_t fields)
+    : out_(path) {
   value(fields);
 }
 
 void CheckpointWriter::put(const void* bytes, std::size_t size) {
-  out_.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(size));
+  out_.write(bytes, size);
   digest_.add(bytes, size);
 }
 
 void CheckpointWriter::finish() {
-  const std::string checksum = digest_.hex();
-  out_.write(checksum.data(), kDigits);
-  out_.close();
-  std::error_code error = std::make_error_code(std::errc::io_error);
-  if (!out_.fail()) std::filesystem::rename(partial_, path_, error);
-  if (error)
-    throw FileError(fmt::format("cannot write the checkpoint '{}' ({}) is the disk full?",
-                                path_.string(), error.message()));
+  out_.write(digest_.hex());
+  out_.commit();
 }
 
 CheckpointReader::CheckpointReader(std::filesystem::path path, std::uint64_t fields)
-    : path_(std::move(path)), in_(path_, std::ios::binary) {
+    : path_(std::move(path)) {
+  expect_regular_file(path_);
+  in_.open(path_, std::ios::binary);
   std::error_code error;
   const std::uint64_t size = std::filesystem::file_size(path_, error);
-  if (error || !in_) refuse("it cannot be read");
+  if (error || !in_) fail_to_read();
   if (size < kDigits + sizeof fields) refuse("it is cut off");
   left_ = size - kDigits;
 
@@ -52,7 +71,8 @@ CheckpointReader::CheckpointReader(std::filesystem::path path, std::uint64_t fie
   }
   std::string checksum(kDigits, ' ');
   in_.read(checksum.data(), kDigits);
-  if (!in_ || checksum != digest.hex())
+  if (!in_) fail_to_read();
+  if (checksum != digest.hex())
     refuse("its checksum does not fit its bytes: it is damaged, cut off, or of an older program");
   in_.seekg(0);
   std::uint64_t found = 0;
@@ -63,7 +83,7 @@ CheckpointReader::CheckpointReader(std::filesystem::path path, std::uint64_t fie
 void CheckpointReader::take(void* bytes, std::size_t size) {
   if (size > left_) refuse("it ends within a field");
   in_.read(static_cast<char*>(bytes), static_cast<std::streamsize>(size));
-  if (!in_) refuse("it cannot be read");
+  if (!in_) fail_to_read();
   left_ -= size;
 }
 
@@ -71,11 +91,9 @@ void CheckpointReader::finish() {
   if (left_ > 0) refuse("it has more fields than expected");
 }
 
-void CheckpointReader::refuse(const char* why) const {
-  throw FileError(
-      fmt::format("the checkpoint '{}' cannot be continued ({}) delete it to start the stage from "
-                  "its beginning",
-                  path_.string(), why));
+void CheckpointReader::fail_to_read() const {
+  throw FileError(fmt::format("the checkpoint '{}' cannot be read (its disk or its permissions)",
+                              path_.string()));
 }
 
 }  // namespace flowslide

@@ -1,10 +1,12 @@
 #pragma once
+#include "core/files.hpp"
 #include "core/hash.hpp"
 
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -15,11 +17,21 @@ namespace flowslide {
 
 inline constexpr double kCheckpointSeconds = 15.0;  ///< wall time between checkpoints of a run
 
-/// Writes `path`.partial, which replaces `path` in finish(). Throws FileError.
+/// Whether there is one, after what killed writers left beside it is gone. Throws FileError.
+bool find_checkpoint(const std::filesystem::path& path);
+
+/// When it returns, the checkpoint is gone from the disk, too: what it counts may go then, and not
+/// before. Throws FileError.
+void remove_checkpoint(const std::filesystem::path& path);
+
+/// Throws the FileError of a checkpoint that is whole but cannot be continued.
+[[noreturn]] void refuse_checkpoint(const std::filesystem::path& path, std::string_view why);
+
+/// Replaces `path` in finish(), when all bytes are on the disk. Throws FileError.
 class CheckpointWriter {
  public:
   /// @param fields changes whenever the list of fields changes
-  CheckpointWriter(std::filesystem::path path, std::uint64_t fields);
+  CheckpointWriter(const std::filesystem::path& path, std::uint64_t fields);
   template <class T>
   void value(const T& x) {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -35,8 +47,7 @@ class CheckpointWriter {
 
  private:
   void put(const void* bytes, std::size_t size);
-  std::filesystem::path path_, partial_;
-  std::ofstream out_;
+  OutputFile out_;
   Sha256 digest_;
 };
 
@@ -61,10 +72,11 @@ class CheckpointReader {
   }
   /// After the last field. Throws FileError if there is more.
   void finish();
-  [[noreturn]] void refuse(const char* why) const;
+  [[noreturn]] void refuse(std::string_view why) const { refuse_checkpoint(path_, why); }
 
  private:
   void take(void* bytes, std::size_t size);
+  [[noreturn]] void fail_to_read() const;
   std::filesystem::path path_;
   std::ifstream in_;
   std::uint64_t left_ = 0;  ///< bytes before the checksum

@@ -1,3 +1,4 @@
+#include "core/files.hpp"
 #include "model/field_store.hpp"
 #include "model/hdf5_handle.hpp"
 
@@ -5,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <set>
 
 namespace flowslide {
 namespace {
@@ -14,14 +16,16 @@ constexpr std::string_view kLfsPointer = "version https://git-lfs";
 /// Deflate cannot shrink data further than 1032:1, so a larger array cannot be in the file.
 constexpr double kMaxCompression = 1032.0;
 
+constexpr std::size_t kLongestText = 4096;  ///< of a root attribute; a damaged type may claim GiB
+
 /// The file's size, after telling apart what HDF5 itself only calls "file signature not found".
 std::uintmax_t check_signature(const std::filesystem::path& path) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status))
+  if (status.type() == std::filesystem::file_type::not_found)
     throw FileError(fmt::format("'{}' does not exist", path.string()));
-  if (!std::filesystem::is_regular_file(status))
-    throw FileError(fmt::format("'{}' is not a file", path.string()));
+  if (error) throw FileError(fmt::format("'{}' cannot be read ({})", path.string(), error.message()));
+  expect_regular_file(path);
   std::ifstream in(path, std::ios::binary);
   if (!in)
     throw FileError(fmt::format("'{}' cannot be read; check its permissions", path.string()));
@@ -69,7 +73,7 @@ std::string root_text(const std::filesystem::path& path, hid_t file, const char*
   const Hdf5Handle type(H5Aget_type(attribute), &H5Tclose);
   const Hdf5Handle space(H5Aget_space(attribute), &H5Sclose);
   if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0 ||
-      H5Sget_simple_extent_npoints(space) != 1)
+      H5Tget_size(type) > kLongestText || H5Sget_simple_extent_npoints(space) != 1)
     return "";
   std::string text(H5Tget_size(type), '\0');
   if (H5Aread(attribute, type, text.data()) < 0)
@@ -105,6 +109,7 @@ struct FieldReader::Impl {
   std::filesystem::path path;
   Hdf5Handle file;
   std::uintmax_t file_size = 0;
+  mutable std::set<std::string> complete;  ///< datasets all of whose chunks are there
 
   [[nodiscard]] std::string where(const std::string& name) const {
     return fmt::format("'{}': dataset '{}'", path.string(), name);
@@ -152,7 +157,29 @@ struct FieldReader::Impl {
                        fmt::format("claims {:.3g} bytes, more than a file of {} bytes can hold; "
                                    "the file is damaged",
                                    bytes, file_size));
+    if (bytes > 0.0) check_chunks(name, dataset, extent);
     return {extent.begin(), extent.end()};
+  }
+
+  /// HDF5 reads chunks that were never written as zeros.
+  void check_chunks(const std::string& name, hid_t dataset,
+                    const std::vector<hsize_t>& extent) const {
+    if (complete.count(name) > 0) return;
+    const Hdf5Handle layout(H5Dget_create_plist(dataset), &H5Pclose);
+    if (H5Pget_layout(layout) == H5D_CHUNKED) {
+      std::vector<hsize_t> chunk(extent.size());
+      H5Pget_chunk(layout, static_cast<int>(chunk.size()), chunk.data());
+      hsize_t expected = 1, found = 0;
+      for (std::size_t d = 0; d < extent.size(); ++d)
+        expected *= (extent[d] + chunk[d] - 1) / std::max<hsize_t>(chunk[d], 1);
+      const Hdf5Handle space(H5Dget_space(dataset), &H5Sclose);
+      if (H5Dget_num_chunks(dataset, space, &found) < 0 || found != expected)
+        throw_file_error(path, name,
+                         fmt::format("has {} of {} pieces (the disk was full when it was written); "
+                                     "make the file again",
+                                     found, expected));
+    }
+    complete.insert(name);
   }
 
   /// Reads `space` of the dataset (H5S_ALL for all) with the conversion that `type` asks for.

@@ -76,9 +76,9 @@ Shape shape_of(std::size_t size) {
     return {size, ElementType<T>::width};
 }
 
-/// Writes `path`.partial and renames it to `path` in finish(), when the data are on the disk; a
-/// writer that is destroyed before leaves neither. Throws FileError, and InputError for values that
-/// the label does not allow.
+/// Writes under a temporary name, which becomes `path` in finish(), when the data are on the disk,
+/// have been read again and are what was given; a writer that is destroyed before leaves neither.
+/// Throws FileError, and InputError for values that the label does not allow.
 class FieldWriter {
  public:
   FieldWriter(const std::filesystem::path& path, std::string_view kind, int format_version);

@@ -1,10 +1,10 @@
+#include "core/files.hpp"
 #include "model/field_store.hpp"
 #include "model/hdf5_handle.hpp"
+#include "model/written_fields.hpp"
 
 #include <algorithm>
-#include <fcntl.h>
 #include <map>
-#include <unistd.h>
 
 namespace flowslide {
 namespace {
@@ -16,14 +16,6 @@ constexpr std::string_view kConventions =
 
 /// Rows of a chunk are bounded because HDF5 limits a chunk to 4 GiB.
 constexpr std::size_t kChunkRows = 1u << 20;
-
-Hdf5Handle text_type(std::size_t length) {
-  Hdf5Handle type(H5Tcopy(H5T_C_S1), &H5Tclose);
-  H5Tset_size(type, std::max<std::size_t>(length, 1));
-  H5Tset_strpad(type, H5T_STR_NULLPAD);
-  H5Tset_cset(type, H5T_CSET_UTF8);
-  return type;
-}
 
 bool set_text(hid_t object, const char* name, std::string_view text) {
   const Hdf5Handle type = text_type(text.size());
@@ -45,7 +37,7 @@ bool set_integer(hid_t object, const char* name, std::int64_t value) {
 /// to those it creates by itself.
 bool create_groups(hid_t file, const std::string& name) {
   const Hdf5Handle creation(H5Pcreate(H5P_GROUP_CREATE), &H5Pclose);
-  H5Pset_obj_track_times(creation, false);
+  expect_hdf5(H5Pset_obj_track_times(creation, false) >= 0);
   for (auto at = name.find('/'); at != std::string::npos; at = name.find('/', at + 1)) {
     const std::string group = name.substr(0, at);
     if (H5Lexists(file, group.c_str(), H5P_DEFAULT) > 0) continue;
@@ -56,20 +48,12 @@ bool create_groups(hid_t file, const std::string& name) {
   return true;
 }
 
-/// What is in the page cache of a file or folder goes to the disk.
-bool sync(const std::filesystem::path& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return false;
-  const bool done = ::fsync(file) == 0;
-  ::close(file);
-  return done;
-}
-
 }  // namespace
 
 struct FieldWriter::Impl {
   std::filesystem::path path, partial;
   Hdf5Handle file;
+  WrittenFields written;
   struct Series {
     Hdf5Handle dataset;
     Shape row;
@@ -78,27 +62,38 @@ struct FieldWriter::Impl {
   std::map<std::string, Series> series;
   bool finished = false;
 
+  ~Impl() {
+    if (finished) return;
+    series.clear();
+    file.release();
+    std::error_code ignored;
+    std::filesystem::remove(partial, ignored);
+  }
+
   /// Creates a dataset of the given extent; `chunk` empty stands for one contiguous block.
   Hdf5Handle create(const std::string& name, hid_t type, const std::vector<hsize_t>& extent,
                     const std::vector<hsize_t>& limit, const std::vector<hsize_t>& chunk,
                     const FieldLabel& label) {
     const Hdf5Handle space(
         H5Screate_simple(static_cast<int>(extent.size()), extent.data(), limit.data()), &H5Sclose);
-    if (!create_groups(file, name)) throw_file_error(partial, name, "cannot be created");
+    if (!create_groups(file, name)) throw_file_error(path, name, "cannot be created");
     const Hdf5Handle layout(H5Pcreate(H5P_DATASET_CREATE), &H5Pclose);
-    H5Pset_obj_track_times(layout, false);
-    if (!chunk.empty()) {
-      H5Pset_chunk(layout, static_cast<int>(chunk.size()), chunk.data());
-      H5Pset_shuffle(layout);
-      H5Pset_deflate(layout, 1);
-      H5Pset_fletcher32(layout);
-    }
+    expect_hdf5(H5Pset_obj_track_times(layout, false) >= 0);
+    if (!chunk.empty())
+      expect_hdf5(H5Pset_chunk(layout, static_cast<int>(chunk.size()), chunk.data()) >= 0 &&
+                  H5Pset_shuffle(layout) >= 0 && H5Pset_deflate(layout, 1) >= 0 &&
+                  H5Pset_fletcher32(layout) >= 0);
     Hdf5Handle dataset(
         H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, layout, H5P_DEFAULT), &H5Dclose);
     if (!dataset.valid() || !set_text(dataset, "unit", label.unit) ||
         !set_text(dataset, "convention", label.convention))
-      throw_file_error(partial, name, "cannot be created");
+      throw_file_error(path, name, "cannot be created");
     return dataset;
+  }
+
+  /// HDF5 keeps chunks in memory until a dataset is closed.
+  void close(const std::string& name, Hdf5Handle& dataset) const {
+    if (dataset.release() < 0) throw_file_error(path, name, "cannot be written");
   }
 };
 
@@ -107,28 +102,21 @@ FieldWriter::FieldWriter(const std::filesystem::path& path, std::string_view kin
     : impl_(std::make_unique<Impl>()) {
   start_hdf5();
   impl_->path = path;
-  impl_->partial = path;
-  impl_->partial += ".partial";
+  impl_->partial = temporary_name(path);
   const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), &H5Pclose);
-  H5Pset_obj_track_times(creation, false);
+  expect_hdf5(H5Pset_obj_track_times(creation, false) >= 0);
   const Hdf5Handle access = file_access();
   impl_->file =
-      Hdf5Handle(H5Fcreate(impl_->partial.c_str(), H5F_ACC_TRUNC, creation, access), &H5Fclose);
-  if (!impl_->file.valid()) throw_file_error(impl_->partial, "", "cannot be created");
+      Hdf5Handle(H5Fcreate(impl_->partial.c_str(), H5F_ACC_EXCL, creation, access), &H5Fclose);
+  if (!impl_->file.valid()) throw_file_error(impl_->path, "", "cannot be created");
   if (!set_text(impl_->file, "kind", kind) ||
       !set_integer(impl_->file, "format_version", format_version) ||
       !set_text(impl_->file, "program", "flowslide " FLOWSLIDE_VERSION) ||
       !set_text(impl_->file, "conventions", kConventions))
-    throw_file_error(impl_->partial, "", "cannot be written");
+    throw_file_error(impl_->path, "", "cannot be written");
 }
 
-FieldWriter::~FieldWriter() {
-  if (impl_->finished) return;
-  impl_->series.clear();
-  impl_->file.release();
-  std::error_code ignored;
-  std::filesystem::remove(impl_->partial, ignored);
-}
+FieldWriter::~FieldWriter() = default;
 
 void FieldWriter::write_array(const std::string& name, Scalar type, const Shape& shape,
                               const void* data, const FieldLabel& label) {
@@ -142,9 +130,11 @@ void FieldWriter::write_array(const std::string& name, Scalar type, const Shape&
     chunk = extent;
     chunk[0] = std::min<hsize_t>(chunk[0], kChunkRows);
   }
-  const Hdf5Handle dataset = impl_->create(name, disk_type(type), extent, extent, chunk, label);
+  Hdf5Handle dataset = impl_->create(name, disk_type(type), extent, extent, chunk, label);
   if (count > 0 && H5Dwrite(dataset, memory_type(type), H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
-    throw_file_error(impl_->partial, name, "cannot be written");
+    throw_file_error(impl_->path, name, "cannot be written");
+  impl_->close(name, dataset);
+  impl_->written.add(name, type, 0, shape[0], {shape.begin() + 1, shape.end()}, data);
 }
 
 void FieldWriter::write_table(const std::string& name, const std::vector<std::vector<double>>& rows,
@@ -166,11 +156,13 @@ void FieldWriter::write_texts(const std::string& name, const std::vector<std::st
   for (std::size_t i = 0; i < texts.size(); ++i) texts[i].copy(&bytes[i * length], length);
   const std::vector<hsize_t> extent{texts.size()};
   const Hdf5Handle type = text_type(length);
-  const Hdf5Handle dataset =
+  Hdf5Handle dataset =
       impl_->create(name, type, extent, extent, texts.empty() ? std::vector<hsize_t>{} : extent,
                     {.unit = "", .convention = convention});
   if (!texts.empty() && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0)
-    throw_file_error(impl_->partial, name, "cannot be written");
+    throw_file_error(impl_->path, name, "cannot be written");
+  impl_->close(name, dataset);
+  impl_->written.add(name, Scalar::u8, length, texts.size(), {}, bytes.data());
 }
 
 void FieldWriter::append_row(const std::string& name, Scalar type, const Shape& shape,
@@ -205,23 +197,19 @@ void FieldWriter::append_row(const std::string& name, Scalar type, const Shape& 
   done = done && H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, extent.data(),
                                      nullptr) >= 0;
   done = done && H5Dwrite(series.dataset, memory_type(type), memory, space, H5P_DEFAULT, data) >= 0;
-  if (!done) throw_file_error(impl_->partial, name, "cannot be written");
+  if (!done) throw_file_error(impl_->path, name, "cannot be written");
   ++series.rows;
+  impl_->written.add(name, type, 0, 1, shape, data);
 }
 
 void FieldWriter::finish() {
-  impl_->series.clear();
-  if (H5Fflush(impl_->file, H5F_SCOPE_LOCAL) < 0 || impl_->file.release() < 0 ||
-      !sync(impl_->partial))
-    throw_file_error(impl_->partial, "", "cannot be completed; is the disk full?");
-  std::error_code error;
-  std::filesystem::rename(impl_->partial, impl_->path, error);
-  if (error)
-    throw FileError(fmt::format("'{}' cannot be renamed to '{}' ({})", impl_->partial.string(),
-                                impl_->path.string(), error.message()));
+  for (auto& [name, series] : impl_->series) impl_->close(name, series.dataset);
+  if (H5Fflush(impl_->file, H5F_SCOPE_LOCAL) < 0 || impl_->file.release() < 0)
+    throw_file_error(impl_->path, "", "cannot be completed; is the disk full?");
+  sync_path(impl_->partial);
+  impl_->written.compare(impl_->partial, impl_->path);
+  rename_durably(impl_->partial, impl_->path);
   impl_->finished = true;
-  const std::filesystem::path folder = impl_->path.parent_path();
-  sync(folder.empty() ? "." : folder);
 }
 
 }  // namespace flowslide

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <new>
 
 namespace flowslide {
 
@@ -81,11 +82,22 @@ hid_t disk_type(Scalar type) {
   std::abort();
 }
 
+void expect_hdf5(bool done) {
+  if (!done) throw std::bad_alloc();
+}
+
+Hdf5Handle text_type(std::size_t length) {
+  Hdf5Handle type(H5Tcopy(H5T_C_S1), &H5Tclose);
+  expect_hdf5(H5Tset_size(type, std::max<std::size_t>(length, 1)) >= 0 &&
+              H5Tset_strpad(type, H5T_STR_NULLPAD) >= 0 && H5Tset_cset(type, H5T_CSET_UTF8) >= 0);
+  return type;
+}
+
 Hdf5Handle file_access() {
   Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
-  H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);
-  H5Pset_file_locking(access, false, true);
-  H5Pset_fclose_degree(access, H5F_CLOSE_SEMI);
+  expect_hdf5(H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110) >= 0 &&
+              H5Pset_file_locking(access, false, true) >= 0 &&
+              H5Pset_fclose_degree(access, H5F_CLOSE_SEMI) >= 0);
   return access;
 }
 

@@ -53,6 +53,12 @@ std::string shape_text(const Shape& shape);
 hid_t memory_type(Scalar type);
 hid_t disk_type(Scalar type);
 
+/// For calls that only fail for want of memory. Throws std::bad_alloc.
+void expect_hdf5(bool done);
+
+/// Text of a fixed length, at least 1, on disk and in memory.
+Hdf5Handle text_type(std::size_t length);
+
 /// File access with the fixed format version and without locks, which network disks often refuse.
 Hdf5Handle file_access();
 

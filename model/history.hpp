@@ -28,8 +28,7 @@ struct HistoryOrigin {
   std::vector<std::string> notes;  ///< what the reader dropped or repaired, one line each
 };
 
-/// Writes `path`.partial and renames it to `path` in finish(); an unfinished writer leaves nothing
-/// under the final name. Throws FileError.
+/// The file is there after finish(); an unfinished writer leaves nothing. Throws FileError.
 class FemHistoryWriter {
  public:
   FemHistoryWriter(const std::filesystem::path& path, const QuadMesh& mesh,

@@ -1,9 +1,11 @@
 #include "model/mpm_history.hpp"
 
 #include "core/check.hpp"
+#include "core/files.hpp"
 #include "model/append_file.hpp"
 #include "model/field_store.hpp"
 #include "model/particle_io.hpp"
+#include "model/parts_folder.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -64,7 +66,12 @@ constexpr std::array<Column, 22> kColumns{
 static_assert(sizeof(MpmSample) == kColumns.size() * sizeof(double), "a column is missing");
 
 /// Doubles of one frame: time, 3 + 3 + 6 + 1 + 1 + 1 per particle.
-std::size_t frame_bytes(std::size_t particles) { return (1 + 15 * particles) * sizeof(double); }
+std::size_t frame_doubles(std::size_t particles) { return 1 + 15 * particles; }
+
+template <class Array>
+constexpr std::size_t width_of(const Array&) {
+  return sizeof(typename Array::value_type) / sizeof(double);
+}
 
 ParticleSet sorted_by_id(const ParticleSet& p) {
   std::vector<std::size_t> order(p.size());
@@ -81,89 +88,65 @@ ParticleSet sorted_by_id(const ParticleSet& p) {
   return sorted;
 }
 
-std::filesystem::path partial_folder(std::filesystem::path path) { return path += ".partial"; }
-
-/// Makes the folder anew, with the initial particles in it.
-std::filesystem::path start_folder(const std::filesystem::path& path, const ParticleSet& initial) {
-  const std::filesystem::path folder = partial_folder(path);
-  check(initial);
-  std::error_code error;
-  std::filesystem::remove_all(folder, error);
-  if (!error) std::filesystem::create_directory(folder, error);
-  if (error)
-    throw FileError(
-        fmt::format("the folder '{}' cannot be made ({})", folder.string(), error.message()));
-  write_particles(folder / "initial.h5", sorted_by_id(initial));
-  return folder;
-}
-
 }  // namespace
 
 /// While it is written, a history is a folder of append-only files: after a kill they are cut back
 /// to what a checkpoint knows of. finish() makes the HDF5 file from them in one pass, so that its
 /// bytes do not depend on how often the run was interrupted.
 struct MpmHistoryWriter::Impl {
-  std::filesystem::path path, folder;
+  std::filesystem::path path;
   ParticleSet initial;
-  std::size_t num_frames, num_samples;
+  PartsFolder folder;
   AppendFile frames, samples;
-  bool finished = false;
+  std::vector<double> record;
+  double last_time = -1e300;
 
-  Impl(std::filesystem::path target, std::filesystem::path where, std::size_t keep_frames,
+  Impl(std::filesystem::path target, const ParticleSet& particles, std::size_t keep_frames,
        std::size_t keep_samples)
       : path(std::move(target)),
-        folder(std::move(where)),
-        initial(read_particles(folder / "initial.h5")),
-        num_frames(keep_frames),
-        num_samples(keep_samples),
-        frames(folder / "frames.bin", frame_bytes(initial.size()), keep_frames),
-        samples(folder / "samples.bin", sizeof(MpmSample), keep_samples) {}
-
-  [[nodiscard]] double frame_time(std::size_t index) const {
-    double time = 0.0;
-    frames.read(index * frame_bytes(initial.size()), &time, sizeof time);
-    return time;
+        initial(sorted_by_id(particles)),
+        folder(path, keep_frames == 0),
+        frames(folder / "frames.bin", frame_doubles(initial.size()) * sizeof(double), keep_frames),
+        samples(folder / "samples.bin", sizeof(MpmSample), keep_samples),
+        record(frame_doubles(initial.size())) {
+    if (keep_frames > 0) last_time = frame(keep_frames - 1).time;
   }
 
-  [[nodiscard]] MpmFrame frame(std::size_t index) const {
+  [[nodiscard]] MpmFrame frame(std::size_t index) {
+    frames.read(index, record.data());
+    const double* from = record.data();
     MpmFrame frame;
-    frame.time = frame_time(index);
-    std::size_t offset = index * frame_bytes(initial.size()) + sizeof(double);
-    visit_arrays(frame, [this, &offset](auto, auto&&, auto& array) {
+    frame.time = *from++;
+    visit_arrays(frame, [this, &from](auto, auto&&, auto& array) {
       array.resize(initial.size());
-      const std::size_t bytes = array.size() * sizeof(array[0]);
-      frames.read(offset, array.data(), bytes);
-      offset += bytes;
+      const std::size_t n = array.size() * width_of(array);
+      std::copy_n(from, n, reinterpret_cast<double*>(array.data()));
+      from += n;
     });
     return frame;
   }
 };
 
-MpmHistoryWriter::MpmHistoryWriter(const std::filesystem::path& path, const ParticleSet& initial)
-    : impl_(std::make_unique<Impl>(path, start_folder(path, initial), 0, 0)) {}
-
-MpmHistoryWriter::MpmHistoryWriter(const std::filesystem::path& path, std::size_t resume_frames,
-                                   std::size_t resume_samples)
-    : impl_(std::make_unique<Impl>(path, partial_folder(path), resume_frames, resume_samples)) {}
-
-MpmHistoryWriter::~MpmHistoryWriter() {
-  std::error_code ignored;
-  if (impl_->finished) std::filesystem::remove_all(impl_->folder, ignored);
+MpmHistoryWriter::MpmHistoryWriter(const std::filesystem::path& path, const ParticleSet& initial,
+                                   std::size_t frames, std::size_t samples) {
+  check(initial);
+  impl_ = std::make_unique<Impl>(path, initial, frames, samples);
 }
+
+MpmHistoryWriter::~MpmHistoryWriter() = default;
 
 void MpmHistoryWriter::append(const MpmFrame& frame) {
   const std::size_t n = impl_->initial.size();
-  const double before = impl_->num_frames == 0 ? -1e300 : impl_->frame_time(impl_->num_frames - 1);
-  validate(frame.time > before,
+  validate(frame.time > impl_->last_time,
            "frame {} is at t = {} s (times must increase, the frame before is "
            "at {} s)",
-           impl_->num_frames, frame.time, before);
+           impl_->frames.size(), frame.time, impl_->last_time);
   visit_arrays(
       frame, [this, n, &frame](const char* name, const FieldLabel& label, const auto& array) {
         validate(array.size() == n, "frame at t = {} s: {} has {} values (there are {} particles)",
                  frame.time, name, array.size(), n);
         const double* values = reinterpret_cast<const double*>(array.data());
-        const std::size_t width = sizeof(array[0]) / sizeof(double);
+        const std::size_t width = width_of(array);
         for (std::size_t i = 0; i < n * width; ++i)
           if (!(std::isfinite(values[i]) || (label.nan == Nan::allowed && std::isnan(values[i]))))
             throw NumericsError(
@@ -171,11 +154,14 @@ void MpmHistoryWriter::append(const MpmFrame& frame) {
                             "become unstable); take a smaller time step",
                             frame.time, name, impl_->initial.id[i / width], values[i]));
       });
-  impl_->frames.append(&frame.time, sizeof frame.time);
-  visit_arrays(frame, [this](auto, auto&&, const auto& array) {
-    impl_->frames.append(array.data(), array.size() * sizeof(array[0]));
+  double* to = impl_->record.data();
+  *to++ = frame.time;
+  visit_arrays(frame, [&to](auto, auto&&, const auto& array) {
+    const auto* values = reinterpret_cast<const double*>(array.data());
+    to = std::copy_n(values, array.size() * width_of(array), to);
   });
-  ++impl_->num_frames;
+  impl_->frames.append(impl_->record.data());
+  impl_->last_time = frame.time;
 }
 
 void MpmHistoryWriter::append(const MpmSample& sample) {
@@ -185,8 +171,7 @@ void MpmHistoryWriter::append(const MpmSample& sample) {
           fmt::format("time series at t = {} s: {} is {} (the run has become "
                       "unstable); take a smaller time step",
                       sample.time, c.name, sample.*c.value));
-  impl_->samples.append(&sample, sizeof sample);
-  ++impl_->num_samples;
+  impl_->samples.append(&sample);
 }
 
 void MpmHistoryWriter::flush() {
@@ -199,7 +184,7 @@ void MpmHistoryWriter::finish() {
   FieldWriter out(joined, kKind, kFormat);
   write_particles(out, impl_->initial);
   std::vector<double> times;
-  for (std::size_t i = 0; i < impl_->num_frames; ++i) {
+  for (std::size_t i = 0; i < impl_->frames.size(); ++i) {
     const MpmFrame frame = impl_->frame(i);
     times.push_back(frame.time);
     visit_arrays(frame, [&out](const char* name, const FieldLabel& label, const auto& array) {
@@ -207,21 +192,18 @@ void MpmHistoryWriter::finish() {
     });
   }
   out.write("frames/time", times, {.unit = "s", .convention = "since transfer"});
-  std::vector<MpmSample> samples(impl_->num_samples);
-  impl_->samples.read(0, samples.data(), samples.size() * sizeof(MpmSample));
+  std::vector<MpmSample> samples(impl_->samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) impl_->samples.read(i, &samples[i]);
   for (const Column& c : kColumns) {
     std::vector<double> column;
     for (const MpmSample& s : samples) column.push_back(s.*c.value);
     out.write(std::string("samples/") + c.name, column, {.unit = c.unit});
   }
   out.finish();
-  std::error_code error;
-  std::filesystem::rename(joined, impl_->path, error);
-  if (error)
-    throw FileError(fmt::format("'{}' cannot be renamed to '{}' ({})", joined.string(),
-                                impl_->path.string(), error.message()));
-  impl_->finished = true;
+  rename_durably(joined, impl_->path);
 }
+
+void MpmHistoryWriter::remove_parts() { impl_->folder.remove(); }
 
 struct MpmHistory::Impl {
   FieldReader in;

@@ -50,15 +50,15 @@ struct MpmSample {
   double load_work = 0.0;           ///< work of tractions since the start [J]
 };
 
+/// A MpmHistory of a run that may be killed and continued. While it is written, `path`.partial is a
+/// folder with frames and rows in files that only grow. Throws FileError, and NumericsError for
+/// numbers that are not finite.
 class MpmHistoryWriter {
  public:
-  /// Starts the folder `path`.partial, or, if `resume_samples`/`resume_frames` are given, reopens
-  /// it and cuts it back to that many rows and frames. finish() makes `path` from it.
-  MpmHistoryWriter(const std::filesystem::path& path, const ParticleSet& initial);
-  MpmHistoryWriter(const std::filesystem::path& path, std::size_t resume_frames,
-                   std::size_t resume_samples);
-  /// After finish() the folder goes too. It stays until then, so that a kill between the last bytes
-  /// and the removal of the checkpoint leaves a run that can be continued.
+  /// @param frames, samples already there: they are compared with their checksums and kept, what
+  ///   comes behind is dropped. Without frames the folder is made anew.
+  MpmHistoryWriter(const std::filesystem::path& path, const ParticleSet& initial,
+                   std::size_t frames = 0, std::size_t samples = 0);
   ~MpmHistoryWriter();
   MpmHistoryWriter(const MpmHistoryWriter&) = delete;
   MpmHistoryWriter& operator=(const MpmHistoryWriter&) = delete;
@@ -66,7 +66,11 @@ class MpmHistoryWriter {
   void append(const MpmSample& sample);
   /// Data reach the disk; called before a checkpoint that refers to them.
   void flush();
+  /// Makes `path` from the folder.
   void finish();
+  /// Removes the folder, after finish() and when the checkpoint is gone: a kill between the two
+  /// leaves a run that can be continued.
+  void remove_parts();
 
  private:
   struct Impl;

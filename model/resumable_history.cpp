@@ -1,8 +1,11 @@
 #include "model/resumable_history.hpp"
 
 #include "core/check.hpp"
+#include "core/files.hpp"
 #include "model/append_file.hpp"
+#include "model/parts_folder.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace flowslide {
@@ -23,36 +26,25 @@ constexpr std::size_t width_of(const Array&) {
   return sizeof(typename Array::value_type) / sizeof(double);
 }
 
-std::size_t record_bytes(const QuadMesh& mesh) {
+std::size_t record_doubles(const QuadMesh& mesh) {
   std::size_t doubles = 1;
   const FemFrame widths;
   visit_arrays(widths, [&](const char*, const auto& array, bool nodal) {
     doubles += (nodal ? mesh.num_nodes() : mesh.num_elements()) * width_of(array);
   });
-  return doubles * sizeof(double);
-}
-
-std::filesystem::path folder_of(std::filesystem::path path, bool anew) {
-  path += ".partial";
-  std::error_code error;
-  if (anew) std::filesystem::remove_all(path, error);
-  if (!error) std::filesystem::create_directory(path, error);
-  if (error)
-    throw FileError(
-        fmt::format("the folder '{}' cannot be made ({})", path.string(), error.message()));
-  return path;
+  return doubles;
 }
 
 }  // namespace
 
 struct ResumableHistoryWriter::Impl {
-  std::filesystem::path path, folder;
+  std::filesystem::path path;
+  PartsFolder folder;
   QuadMesh mesh;
   HistoryOrigin origin;
   FemFrame gravity;
-  std::size_t num_frames;
   AppendFile frames;
-  bool finished = false;
+  std::vector<double> record;
 
   [[nodiscard]] std::size_t rows(bool nodal) const {
     return nodal ? mesh.num_nodes() : mesh.num_elements();
@@ -62,20 +54,19 @@ struct ResumableHistoryWriter::Impl {
 ResumableHistoryWriter::ResumableHistoryWriter(const std::filesystem::path& path,
                                                const QuadMesh& mesh, const HistoryOrigin& origin,
                                                const FemFrame& gravity, std::size_t frames) {
-  const std::filesystem::path folder = folder_of(path, frames == 0);
-  impl_.reset(new Impl{.path = path,
-                       .folder = folder,
-                       .mesh = mesh,
-                       .origin = origin,
-                       .gravity = gravity,
-                       .num_frames = frames,
-                       .frames = AppendFile(folder / "frames.bin", record_bytes(mesh), frames)});
+  PartsFolder folder(path, frames == 0);
+  const std::size_t doubles = record_doubles(mesh);
+  impl_.reset(
+      new Impl{.path = path,
+               .folder = folder,
+               .mesh = mesh,
+               .origin = origin,
+               .gravity = gravity,
+               .frames = AppendFile(folder / "frames.bin", doubles * sizeof(double), frames),
+               .record = std::vector<double>(doubles)});
 }
 
-ResumableHistoryWriter::~ResumableHistoryWriter() {
-  std::error_code ignored;
-  if (impl_->finished) std::filesystem::remove_all(impl_->folder, ignored);
-}
+ResumableHistoryWriter::~ResumableHistoryWriter() = default;
 
 void ResumableHistoryWriter::append(const FemFrame& frame) {
   visit_arrays(frame, [&](const char* name, const auto& array, bool nodal) {
@@ -93,25 +84,25 @@ void ResumableHistoryWriter::append(const FemFrame& frame) {
             nodal ? impl_->mesh.node_tags[i / width] : impl_->mesh.element_tags[i / width],
             values[i]));
   });
-  impl_->frames.append(&frame.time, sizeof frame.time);
+  double* to = impl_->record.data();
+  *to++ = frame.time;
   visit_arrays(frame, [&](const char*, const auto& array, bool) {
-    impl_->frames.append(array.data(), array.size() * sizeof(array[0]));
+    const auto* values = reinterpret_cast<const double*>(array.data());
+    to = std::copy_n(values, array.size() * width_of(array), to);
   });
-  ++impl_->num_frames;
+  impl_->frames.append(impl_->record.data());
 }
 
 FemFrame ResumableHistoryWriter::frame(std::size_t index) {
-  FLOWSLIDE_EXPECT(index < impl_->num_frames);
+  impl_->frames.read(index, impl_->record.data());
+  const double* from = impl_->record.data();
   FemFrame frame;
-  std::size_t offset = index * record_bytes(impl_->mesh);
-  const auto read = [&](void* to, std::size_t bytes) {
-    impl_->frames.read(offset, to, bytes);
-    offset += bytes;
-  };
-  read(&frame.time, sizeof frame.time);
+  frame.time = *from++;
   visit_arrays(frame, [&](const char*, auto& array, bool nodal) {
     array.resize(impl_->rows(nodal));
-    read(array.data(), array.size() * sizeof(array[0]));
+    const std::size_t n = array.size() * width_of(array);
+    std::copy_n(from, n, reinterpret_cast<double*>(array.data()));
+    from += n;
   });
   return frame;
 }
@@ -122,14 +113,11 @@ void ResumableHistoryWriter::finish() {
   const std::filesystem::path joined = impl_->folder / "joined.h5";
   FemHistoryWriter out(joined, impl_->mesh, impl_->origin);
   out.set_gravity(impl_->gravity);
-  for (std::size_t i = 0; i < impl_->num_frames; ++i) out.append(frame(i));
+  for (std::size_t i = 0; i < impl_->frames.size(); ++i) out.append(frame(i));
   out.finish();
-  std::error_code error;
-  std::filesystem::rename(joined, impl_->path, error);
-  if (error)
-    throw FileError(fmt::format("'{}' cannot be renamed to '{}' ({})", joined.string(),
-                                impl_->path.string(), error.message()));
-  impl_->finished = true;
+  rename_durably(joined, impl_->path);
 }
+
+void ResumableHistoryWriter::remove_parts() { impl_->folder.remove(); }
 
 }  // namespace flowslide

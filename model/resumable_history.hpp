@@ -4,16 +4,15 @@
 namespace flowslide {
 
 /// A FemHistory of a run that may be killed and continued. While it is written, `path`.partial is a
-/// folder with the frames in a file that only grows; a resumed run cuts it back to the frames that
-/// its checkpoint knows of. finish() makes the HDF5 file in one pass, so that its bytes do not
-/// depend on interruptions. Throws FileError, and NumericsError for frames that are not finite.
+/// folder with the frames in a file that only grows; a resumed run compares with their checksums
+/// those that its checkpoint knows of and drops the others. finish() makes the HDF5 file in one
+/// pass, so that its bytes do not depend on interruptions. Throws FileError, and NumericsError for
+/// frames that are not finite.
 class ResumableHistoryWriter {
  public:
   /// @param frames already there and kept; 0 starts anew
   ResumableHistoryWriter(const std::filesystem::path& path, const QuadMesh& mesh,
                          const HistoryOrigin& origin, const FemFrame& gravity, std::size_t frames);
-  /// After finish() the folder goes too. It stays until then, so that a kill between the last bytes
-  /// and the removal of the checkpoint leaves a run that can be continued.
   ~ResumableHistoryWriter();
   ResumableHistoryWriter(const ResumableHistoryWriter&) = delete;
   ResumableHistoryWriter& operator=(const ResumableHistoryWriter&) = delete;
@@ -24,6 +23,9 @@ class ResumableHistoryWriter {
   /// Frames reach the disk; before a checkpoint that counts them.
   void flush();
   void finish();
+  /// Removes the folder, after finish() and when the checkpoint is gone: a kill between the two
+  /// leaves a run that can be continued.
+  void remove_parts();
 
  private:
   struct Impl;

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-/// Files for ParaView. Names carry units: "stress [Pa]". Written to NAME.partial and renamed;
-/// appended binary data, compressed, in double precision. All throw FileError.
+/// Files for ParaView. Names carry units: "stress [Pa]". Appended binary data, compressed, in
+/// double precision, made in memory. All throw FileError.
 namespace flowslide {
 
 /// A further array of a picture; `values` has `components` numbers per node, element or particle.

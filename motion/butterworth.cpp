@@ -1,6 +1,8 @@
 #include "motion/butterworth.hpp"
 
 #include "core/conventions.hpp"
+#include "core/elementary.hpp"
+#include "motion/process.hpp"
 
 #include <algorithm>
 
@@ -17,10 +19,10 @@ struct Section {
 /// Poles of the Butterworth circle in pairs, s^2 + 2 sin(theta) s + 1, by the bilinear transform
 /// with the corner prewarped.
 std::vector<Section> design(Side side, int order, double corner, double dt) {
-  const double k = std::tan(kPi * corner * dt);
+  const double k = tan(kPi * corner * dt);
   std::vector<Section> sections;
   for (int i = 0; i < order / 2; ++i) {
-    const double c = 2.0 * std::sin(kPi * (2 * i + 1) / (2.0 * order));
+    const double c = 2.0 * sin(kPi * (2 * i + 1) / (2.0 * order));
     const double norm = 1.0 / (1.0 + c * k + k * k);
     const double b = side == Side::low ? k * k * norm : norm;
     sections.push_back({b, side == Side::low ? 2.0 * b : -2.0 * b, b, 2.0 * (k * k - 1.0) * norm,
@@ -56,7 +58,8 @@ void check_corner(const GroundMotion& motion, double corner) {
 
 }  // namespace
 
-GroundMotion filtered(const GroundMotion& motion, const BandPass& band) {
+GroundMotion filtered(const GroundMotion& motion, const BandPass& band,
+                      const Progress& progress) {
   constexpr double kLongestPad = 3600.0;  // [s]
   check(motion);
   validate(band.high_pass || band.low_pass, "a filter without corners (high_pass, low_pass)");
@@ -79,6 +82,10 @@ GroundMotion filtered(const GroundMotion& motion, const BandPass& band) {
   validate(pad_time <= kLongestPad,
            "{}: a corner of {} Hz needs {:.3g} s of padding (no ground motion has such periods)",
            motion.origin, lowest, pad_time);
+  validate(pad_time / motion.dt <= kMostSamples,
+           "{}: a corner of {} Hz needs {:.3g} samples of padding at a step of {} s (at most {:g}) "
+           "raise it, or resample first",
+           motion.origin, lowest, pad_time / motion.dt, motion.dt, kMostSamples);
   const bool zero_phase = band.phase == FilterPhase::zero;
   const auto after = static_cast<std::size_t>(std::ceil(pad_time / motion.dt));
   const std::size_t before = zero_phase ? after : 0;
@@ -86,9 +93,14 @@ GroundMotion filtered(const GroundMotion& motion, const BandPass& band) {
   std::vector<double> x(before, 0.0);
   x.insert(x.end(), motion.acceleration.begin(), motion.acceleration.end());
   x.resize(x.size() + after, 0.0);
-  for (const Section& s : sections) apply(s, x.begin(), x.end());
-  if (zero_phase)
-    for (const Section& s : sections) apply(s, x.rbegin(), x.rend());
+  for (const Section& s : sections) {
+    progress.poll();
+    apply(s, x.begin(), x.end());
+  }
+  for (std::size_t i = 0; zero_phase && i < sections.size(); ++i) {
+    progress.poll();
+    apply(sections[i], x.rbegin(), x.rend());
+  }
 
   GroundMotion out{.dt = motion.dt, .acceleration = std::move(x), .origin = motion.origin};
   if (!band.keep_padding) {

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/progress.hpp"
 #include "model/ground_motion.hpp"
 
 #include <array>
@@ -26,6 +27,7 @@ struct BandPass {
 };
 
 /// Throws InputError for corners that are no band of this motion.
-GroundMotion filtered(const GroundMotion& motion, const BandPass& band);
+GroundMotion filtered(const GroundMotion& motion, const BandPass& band,
+                      const Progress& progress = {});
 
 }  // namespace flowslide

@@ -59,8 +59,10 @@ struct TimedValue {
 double uniform_step(const std::string& name, const std::vector<TimedValue>& times) {
   const double n = static_cast<double>(times.size() - 1);
   const double dt = (times.back().time - times.front().time) / n;
-  validate(dt > 0.0, "{}: time does not increase (first {} s, last {} s)", name, times.front().time,
-           times.back().time);
+  validate(dt > 0.0,
+           "{}: time does not increase (first {} s, last {} s) is the order of the columns right, "
+           "and are its commas separators, not decimal ones?",
+           name, times.front().time, times.back().time);
   std::vector<double> steps;
   bool uniform = true;
   for (std::size_t i = 1; i < times.size(); ++i) {

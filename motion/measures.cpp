@@ -1,12 +1,11 @@
 #include "motion/measures.hpp"
 
 #include "core/conventions.hpp"
+#include "motion/fourier.hpp"
 #include "motion/spectrum.hpp"
 
 #include <algorithm>
 #include <bit>
-#include <complex>
-#include <unsupported/Eigen/FFT>
 
 namespace flowslide {
 namespace {
@@ -90,23 +89,26 @@ double cumulative_absolute_velocity(const GroundMotion& motion) {
 double mean_period(const GroundMotion& motion) {
   constexpr double kLowest = 0.25, kHighest = 20.0;  // [Hz]
   constexpr double kSpacing = 0.05;  // [Hz], the coarsest that the definition allows
+  constexpr double kShortest = 1e-6;  // [s], of which a transform of that spacing takes 256 MB
+  validate(motion.dt >= kShortest,
+           "{}: a time step of {} s (the mean period needs at least {} s; instruments sample at "
+           "milliseconds) is its unit right?",
+           motion.origin, motion.dt, kShortest);
   const double needed = std::max(static_cast<double>(motion.acceleration.size()),
                                  std::ceil(1.0 / (kSpacing * motion.dt)));
   const std::size_t n = std::bit_ceil(static_cast<std::size_t>(needed));
   std::vector<double> padded = motion.acceleration;
   padded.resize(n, 0.0);
-  std::vector<std::complex<double>> c;
-  Eigen::FFT<double> fft;
-  fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
-  fft.fwd(c, padded);
+  const std::vector<std::complex<double>> c = half_spectrum(padded);
 
   const double df = 1.0 / (static_cast<double>(n) * motion.dt);
   double weighted = 0.0, weights = 0.0;
   for (std::size_t k = 1; k < c.size(); ++k) {
     const double f = static_cast<double>(k) * df;
     if (f < kLowest || f > kHighest) continue;
-    weights += std::norm(c[k]);
-    weighted += std::norm(c[k]) / f;
+    const double square = c[k].real() * c[k].real() + c[k].imag() * c[k].imag();
+    weights += square;
+    weighted += square / f;
   }
   validate(weights > 0.0,
            "{}: nothing between {} and {} Hz (the mean period is taken there) check the time step "
@@ -115,7 +117,7 @@ double mean_period(const GroundMotion& motion) {
   return weighted / weights;
 }
 
-MotionMeasures measure(const GroundMotion& motion) {
+MotionMeasures measure(const GroundMotion& motion, const Progress& progress) {
   check(motion);
   return {.pga = pga(motion),
           .pgv = pgv(motion),
@@ -123,7 +125,7 @@ MotionMeasures measure(const GroundMotion& motion) {
           .d5_95 = significant_duration(motion),
           .tm = mean_period(motion),
           .cav = cumulative_absolute_velocity(motion),
-          .masi = masi(motion)};
+          .masi = masi(motion, PeakSearch::samples, progress)};
 }
 
 }  // namespace flowslide

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/progress.hpp"
 #include "model/ground_motion.hpp"
 
 #include <vector>
@@ -38,6 +39,6 @@ struct MotionMeasures {
   double cav = kUnset;    ///< [m/s]
   double masi = kUnset;   ///< [m/s]
 };
-MotionMeasures measure(const GroundMotion& motion);
+MotionMeasures measure(const GroundMotion& motion, const Progress& progress = {});
 
 }  // namespace flowslide

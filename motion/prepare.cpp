@@ -1,5 +1,8 @@
 #include "motion/prepare.hpp"
 
+#include "motion/foreign.hpp"
+#include "motion/measures.hpp"
+
 namespace flowslide {
 
 template <>
@@ -93,18 +96,42 @@ void check(const MotionConfig& config) {
            "filter without high_pass or low_pass (nothing would be filtered)");
 }
 
-GroundMotion prepare_motion(const MotionConfig& config) {
+namespace {
+
+/// Refuses steps and lengths that no earthquake has, before anything is computed with them.
+void check_size(const GroundMotion& motion) {
+  constexpr double kShortest = 1e-5, kLongest = 10.0;  // [s]
+  check(motion);
+  validate(motion.dt >= kShortest && motion.dt <= kLongest,
+           "{}: a time step of {:g} s is not between {:g} s and {:g} s, where those of records "
+           "lie. Is its unit right?",
+           motion.origin, motion.dt, kShortest, kLongest);
+  validate(static_cast<double>(motion.acceleration.size()) <= kMostSamples,
+           "{}: {} samples (at most {:g} are processed) cut the record or resample it",
+           motion.origin, motion.acceleration.size(), kMostSamples);
+}
+
+}  // namespace
+
+GroundMotion prepare_motion(const MotionConfig& config, const Progress& progress,
+                            std::vector<std::string>* warnings) {
   check(config);
-  GroundMotion motion = config.record   ? read_record(config.record->path, config.format).motion
-                        : config.preset ? synthesize(preset_config(*config.preset, *config.pga))
-                                        : synthesize(*config.synthetic);
+  GroundMotion motion =
+      config.record   ? read_record(config.record->path, config.format).motion
+      : config.preset ? synthesize(preset_config(*config.preset, *config.pga), progress)
+                      : synthesize(*config.synthetic, progress);
+  check_size(motion);
   if (config.baseline)
     motion = baseline_corrected(motion, config.baseline->degree, config.baseline->fit);
-  if (config.filter) motion = filtered(motion, *config.filter);
-  if (config.resample) motion = resampled(motion, config.resample->dt, config.resample->method);
+  if (config.filter) motion = filtered(motion, *config.filter, progress);
+  if (config.resample)
+    motion = resampled(motion, config.resample->dt, config.resample->method, progress);
+  check_size(motion);
   const bool changed = config.baseline || config.filter || config.resample;
   if (config.pga && (config.record || config.synthetic || changed))
     motion = scaled_to_pga(motion, *config.pga);
+  if (std::string odd = implausible_peak("the motion", pga(motion)); warnings && !odd.empty())
+    warnings->push_back(std::move(odd));
   return motion;
 }
 

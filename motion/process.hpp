@@ -1,4 +1,5 @@
 #pragma once
+#include "core/progress.hpp"
 #include "model/ground_motion.hpp"
 
 #include <array>
@@ -7,6 +8,9 @@
 /// Processing of ground motions. Each function returns a new motion whose origin tells what was
 /// done; order and reasons in docs/guide/motions.md. Throws InputError for what makes no sense.
 namespace flowslide {
+
+/// Samples that a motion may have here, so that every step of its processing takes seconds.
+inline constexpr double kMostSamples = 5e6;
 
 /// The same shape with max |a| equal to `pga` [m/s2] to the last bit.
 GroundMotion scaled_to_pga(const GroundMotion& motion, double pga);
@@ -29,6 +33,7 @@ enum class ResampleMethod {
 inline constexpr std::array<std::string_view, 2> kResampleMethods{"linear", "band_limited"};
 
 /// Samples at 0, dt, 2 dt, ... up to the end of the motion [s].
-GroundMotion resampled(const GroundMotion& motion, double dt, ResampleMethod method);
+GroundMotion resampled(const GroundMotion& motion, double dt, ResampleMethod method,
+                       const Progress& progress = {});
 
 }  // namespace flowslide

@@ -2,14 +2,19 @@
 
 #include "motion/at2.hpp"
 #include "motion/columns.hpp"
+#include "motion/foreign.hpp"
+#include "motion/measures.hpp"
 #include "motion/record_text.hpp"
 
 namespace flowslide {
 namespace {
 
 Record parse(const RecordText& text, const RecordFormat& format) {
+  if (!is_at2(text)) refuse_foreign_format(text);
   Record record = is_at2(text) ? parse_at2(text, format) : parse_columns(text, format);
   check(record.motion);
+  if (std::string odd = implausible_peak(text.name, pga(record.motion)); !odd.empty())
+    record.warnings.push_back(std::move(odd));
   return record;
 }
 

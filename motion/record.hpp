@@ -25,6 +25,7 @@ struct RecordFormat {
 struct Record {
   GroundMotion motion;
   std::vector<std::string> notes;  ///< what the reader corrected or left out
+  std::vector<std::string> warnings = {};  ///< what cannot be right, such as a peak of 200 g
 };
 
 /// Recognises AT2 by the word NPTS in the first lines, and takes other files for columns.

@@ -1,7 +1,9 @@
 #include "motion/record_text.hpp"
 
 #include "core/check.hpp"
+#include "core/odd_characters.hpp"
 #include "core/units.hpp"
+#include "core/unreadable.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -9,7 +11,6 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
-#include <system_error>
 #include <zlib.h>
 
 namespace flowslide {
@@ -24,12 +25,8 @@ constexpr std::string_view kBlanks = " \t\v\f";
 constexpr std::string_view kEndsNumber = " \t\v\f,;+-";
 
 std::string read_bytes(const fs::path& path) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (status.type() == fs::file_type::not_found)
-    throw FileError(fmt::format("{}: no such file", path.string()));
-  if (status.type() == fs::file_type::directory)
-    throw FileError(fmt::format("{}: is a folder (a file is expected)", path.string()));
+  if (const std::string why = why_unreadable(path); !why.empty())
+    throw FileError(fmt::format("{}: {}", path.string(), why));
   const std::unique_ptr<gzFile_s, decltype(&gzclose)> file(gzopen(path.c_str(), "rb"), &gzclose);
   if (!file)
     throw FileError(fmt::format("{}: cannot be opened ({})", path.string(), std::strerror(errno)));
@@ -50,6 +47,22 @@ std::string read_bytes(const fs::path& path) {
     validate(bytes.size() <= kLargest, "{}: more than {} MB of text (no record is so long)",
              path.string(), kLargest >> 20);
   }
+}
+
+/// Commas between digits and nothing else about them, other separators beside them, no points: the
+/// commas do not separate.
+bool has_decimal_commas(std::string_view line) {
+  bool commas = false, others = false;
+  const auto digit = [&](std::size_t i) {
+    return i < line.size() && line[i] >= '0' && line[i] <= '9';
+  };
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '.') return false;
+    if (line[i] == ',' && (i == 0 || !digit(i - 1) || !digit(i + 1))) return false;
+    commas = commas || line[i] == ',';
+    others = others || line[i] == ';' || kBlanks.find(line[i]) != std::string_view::npos;
+  }
+  return commas && others;
 }
 
 }  // namespace
@@ -131,6 +144,9 @@ bool take_number(std::string_view& text, double& value) {
 
 std::string take_row(std::string_view line, std::vector<double>& values) {
   line = trimmed(line);
+  if (has_decimal_commas(line))
+    return fmt::format("'{}' has decimal commas (numbers have a decimal point) write '.'",
+                       line.substr(0, 40));
   std::size_t column = 0;
   while (!line.empty()) {
     ++column;
@@ -139,8 +155,10 @@ std::string take_row(std::string_view line, std::vector<double>& values) {
     const bool is_number =
         take_number(line, value) && (line.empty() || kEndsNumber.find(line[0]) != line.npos);
     if (!is_number || !std::isfinite(value)) {
-      const std::string_view token = before.substr(0, before.find_first_of(" \t\v\f,;"));
-      return fmt::format("value {} '{}' is not a finite number", column, token.substr(0, 24));
+      const std::string_view token = before.substr(0, before.find_first_of(" \t\v\f;"));
+      const std::string odd = odd_characters(token);
+      return fmt::format("value {} '{}' {}", column, token.substr(0, 24),
+                         odd.empty() ? "is not a finite number" : odd);
     }
     values.push_back(value);
     line = trimmed(line);

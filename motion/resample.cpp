@@ -1,4 +1,5 @@
 #include "core/conventions.hpp"
+#include "core/elementary.hpp"
 #include "motion/process.hpp"
 
 #include <algorithm>
@@ -9,12 +10,18 @@ namespace {
 constexpr double kHalfWidth = 32.0;  // zero crossings of the sinc on each side
 constexpr double kKaiser = 8.0;      // side lobes 80 dB down
 
-double sinc(double x) { return x == 0.0 ? 1.0 : std::sin(kPi * x) / (kPi * x); }
+double sinc(double x) { return x == 0.0 ? 1.0 : sin(kPi * x) / (kPi * x); }
+
+/// Modified Bessel function I_0 of a square, sum (x^2/4)^k / k!^2.
+double bessel_of_square(double x2) {
+  double sum = 1.0, term = 1.0;
+  for (int k = 1; term > 1e-17 * sum; ++k) sum += term *= 0.25 * x2 / (double(k) * k);
+  return sum;
+}
 
 double kaiser(double x) {
-  static const double kNorm = std::cyl_bessel_i(0.0, kKaiser);
-  return std::abs(x) >= 1.0 ? 0.0
-                            : std::cyl_bessel_i(0.0, kKaiser * std::sqrt(1.0 - x * x)) / kNorm;
+  static const double kNorm = bessel_of_square(kKaiser * kKaiser);
+  return std::abs(x) >= 1.0 ? 0.0 : bessel_of_square(kKaiser * kKaiser * (1.0 - x * x)) / kNorm;
 }
 
 double linear_at(const std::vector<double>& a, double place) {
@@ -41,8 +48,8 @@ double band_limited_at(const std::vector<double>& a, double place, double cut) {
 
 }  // namespace
 
-GroundMotion resampled(const GroundMotion& motion, double dt, ResampleMethod method) {
-  constexpr double kMostSamples = 2e7;
+GroundMotion resampled(const GroundMotion& motion, double dt, ResampleMethod method,
+                       const Progress& progress) {
   check(motion);
   validate(dt > 0.0 && std::isfinite(dt), "a time step of {} s is not positive", dt);
   validate(dt <= motion.duration(), "{}: a time step of {} s is longer than the motion ({:.4g} s)",
@@ -57,6 +64,7 @@ GroundMotion resampled(const GroundMotion& motion, double dt, ResampleMethod met
   const auto n = static_cast<std::size_t>(motion.duration() / dt * (1.0 + 1e-12)) + 1;
   GroundMotion out{.dt = dt, .acceleration = std::vector<double>(n), .origin = motion.origin};
   for (std::size_t i = 0; i < n; ++i) {
+    progress.poll();
     const double place = static_cast<double>(i) * ratio;
     out.acceleration[i] = method == ResampleMethod::linear
                               ? linear_at(motion.acceleration, place)

@@ -1,6 +1,7 @@
 #include "motion/spectrum.hpp"
 
 #include "core/conventions.hpp"
+#include "core/elementary.hpp"
 #include "motion/measures.hpp"
 
 #include <algorithm>
@@ -15,9 +16,9 @@ class Oscillator {
   Oscillator(double omega, double damping, double dt)
       : dt_(dt), omega2_(omega * omega), lag_(2.0 * damping / omega) {
     const double root = std::sqrt(1.0 - damping * damping);
-    const double decay = std::exp(-damping * omega * dt);
-    const double c = decay * std::cos(omega * root * dt);
-    const double s = decay * std::sin(omega * root * dt);
+    const double decay = exp(-damping * omega * dt);
+    const double c = decay * cos(omega * root * dt);
+    const double s = decay * sin(omega * root * dt);
     uu_ = c + damping / root * s;
     uv_ = s / (omega * root);
     vu_ = -omega * s / root;
@@ -83,10 +84,12 @@ double spectral_displacement(const GroundMotion& motion, double period, double d
 }
 
 std::vector<double> pseudo_acceleration(const GroundMotion& motion, std::span<const double> periods,
-                                        double damping, PeakSearch search) {
+                                        double damping, PeakSearch search,
+                                        const Progress& progress) {
   check(motion);
   std::vector<double> psa;
   for (const double period : periods) {
+    progress.poll();
     const double omega = 2.0 * kPi / period;
     psa.push_back(period == 0.0
                       ? pga(motion)
@@ -95,12 +98,12 @@ std::vector<double> pseudo_acceleration(const GroundMotion& motion, std::span<co
   return psa;
 }
 
-double masi(const GroundMotion& motion, PeakSearch search) {
+double masi(const GroundMotion& motion, PeakSearch search, const Progress& progress) {
   constexpr double kFrom = 0.1, kSpacing = 0.01;  // [s]
   constexpr int kIntervals = 140;                 // up to 1.5 s
   std::vector<double> periods;
   for (int i = 0; i <= kIntervals; ++i) periods.push_back(kFrom + kSpacing * i);
-  const std::vector<double> psa = pseudo_acceleration(motion, periods, 0.05, search);
+  const std::vector<double> psa = pseudo_acceleration(motion, periods, 0.05, search, progress);
   double sum = 0.5 * (psa.front() + psa.back());
   for (std::size_t i = 1; i + 1 < psa.size(); ++i) sum += psa[i];
   return sum * kSpacing;

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/progress.hpp"
 #include "model/ground_motion.hpp"
 
 #include <span>
@@ -22,10 +23,12 @@ double spectral_displacement(const GroundMotion& motion, double period, double d
 /// of the critical one, 0 <= damping < 1. Throws InputError.
 std::vector<double> pseudo_acceleration(const GroundMotion& motion, std::span<const double> periods,
                                         double damping = 0.05,
-                                        PeakSearch search = PeakSearch::samples);
+                                        PeakSearch search = PeakSearch::samples,
+                                        const Progress& progress = {});
 
 /// Modified acceleration spectrum intensity: integral of PSA(T, 5 %) over T from 0.1 to 1.5 s,
 /// trapezoidal rule at a spacing of 0.01 s [m/s].
-double masi(const GroundMotion& motion, PeakSearch search = PeakSearch::samples);
+double masi(const GroundMotion& motion, PeakSearch search = PeakSearch::samples,
+            const Progress& progress = {});
 
 }  // namespace flowslide

@@ -1,13 +1,13 @@
 #include "motion/synthetic.hpp"
 
 #include "core/conventions.hpp"
+#include "core/elementary.hpp"
+#include "motion/fourier.hpp"
 #include "motion/measures.hpp"
 #include "motion/process.hpp"
 
 #include <algorithm>
-#include <complex>
 #include <cstdint>
-#include <unsupported/Eigen/FFT>
 
 namespace flowslide {
 namespace {
@@ -28,8 +28,8 @@ class Random {
   }
   /// Standard normal (Box and Muller).
   double normal() {
-    const double radius = std::sqrt(-2.0 * std::log(uniform()));
-    return radius * std::cos(2.0 * kPi * uniform());
+    const double radius = std::sqrt(-2.0 * log(uniform()));
+    return radius * cos(2.0 * kPi * uniform());
   }
 
  private:
@@ -53,13 +53,13 @@ std::complex<double> transfer(double f, double f_g, const SyntheticConfig& c) {
   const std::complex<double> damped = 2.0 * c.bandwidth * s;
   const std::complex<double> ground = (1.0 + damped) / (1.0 + s * s + damped);
   const std::complex<double> source = s / (s + c.corner);
-  return source * source * ground * std::exp(-kPi * c.kappa * f);
+  return source * source * ground * exp(-kPi * c.kappa * f);
 }
 
 /// Gamma-shaped envelope with its peak of 1 at t_p (Saragoni and Hart 1974).
 double envelope(double t, double t_p, double rise) {
   if (t <= 0.0) return 0.0;
-  return std::exp(rise * (std::log(t / t_p) + 1.0 - t / t_p));
+  return exp(rise * (log(t / t_p) + 1.0 - t / t_p));
 }
 
 /// What a strong phase adds: cos^2 with half its height at begin and end.
@@ -68,7 +68,7 @@ double strong_phase(double t, const SyntheticConfig& c) {
   const double half = 0.5 * (*c.strong_end - *c.strong_begin);
   const double x = (t - *c.strong_begin - half) / half;
   if (std::abs(x) >= 2.0) return 0.0;
-  const double cosine = std::cos(0.25 * kPi * x);
+  const double cosine = cos(0.25 * kPi * x);
   return c.strong_ratio * cosine * cosine;
 }
 
@@ -76,7 +76,7 @@ double strong_phase(double t, const SyntheticConfig& c) {
 double end_taper(double share) {
   constexpr double kBegin = 0.75, kEnd = 0.9;  // of the length
   const double x = std::clamp((share - kBegin) / (kEnd - kBegin), 0.0, 1.0);
-  return 0.5 * (1.0 + std::cos(kPi * x));
+  return 0.5 * (1.0 + cos(kPi * x));
 }
 
 struct Shape {
@@ -93,16 +93,11 @@ GroundMotion shaped(const SyntheticConfig& c, const std::vector<double>& noise, 
                   end_taper(place / static_cast<double>(n));
   }
 
-  Eigen::FFT<double> fft;
-  fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
-  std::vector<std::complex<double>> spectrum;
-  fft.fwd(spectrum, windowed);
+  std::vector<std::complex<double>> spectrum = half_spectrum(windowed);
   const double df = 1.0 / (static_cast<double>(n) * c.dt);
   for (std::size_t k = 0; k < spectrum.size(); ++k)
     spectrum[k] *= transfer(static_cast<double>(k) * df, shape.f_g, c);
-  GroundMotion motion{.dt = c.dt, .acceleration = {}, .origin = "synthetic"};
-  fft.inv(motion.acceleration, spectrum, static_cast<Eigen::Index>(n));
-  return motion;
+  return {.dt = c.dt, .acceleration = samples_of(spectrum, n), .origin = "synthetic"};
 }
 
 void check_range(std::string_view what, double value, double least, double most,
@@ -142,19 +137,19 @@ template <class F>
 double root_near(F&& f, double x, double tolerance) {
   constexpr double kStep = 0.1;
   constexpr int kIterations = 60;
-  double a = std::log(x), fa = f(x);
+  double a = log(x), fa = f(x);
   if (std::abs(fa) < tolerance) return x;
   double b = a, fb = fa;
   // Both measures grow with the logarithm that is passed here.
   for (int i = 0; i < kIterations && fa * fb > 0.0; ++i) {
     a = b, fa = fb;
     b += std::copysign(std::clamp(std::abs(fb), 0.01, kStep), -fb);
-    fb = f(std::exp(b));
+    fb = f(exp(b));
   }
   double c = b;
   for (int i = 0; i < kIterations; ++i) {
     c = (a * fb - b * fa) / (fb - fa);
-    const double fc = f(std::exp(c));
+    const double fc = f(exp(c));
     if (std::abs(fc) < tolerance) break;
     if (fc * fb < 0.0) {
       a = b, fa = fb;
@@ -163,17 +158,21 @@ double root_near(F&& f, double x, double tolerance) {
     }
     b = c, fb = fc;
   }
-  return std::exp(c);
+  return exp(c);
 }
 
 }  // namespace
 
-GroundMotion synthesize(const SyntheticConfig& config) {
+GroundMotion synthesize(const SyntheticConfig& config, const Progress& progress) {
   constexpr double kTolerance = 2e-3;
   constexpr int kRounds = 20;
   check_settings(config);
   // Three quarters of it, 2.6 durations, hold all but 1 % of the energy of any envelope.
   const double length = config.lead + 3.5 * config.d5_95;
+  validate(length / config.dt <= kMostSamples,
+           "synthetic motion: {:.4g} s at a step of {} s are {:.3g} samples (at most {:g}) raise "
+           "dt or shorten lead",
+           length, config.dt, length / config.dt, kMostSamples);
   const std::size_t n = transform_size(static_cast<std::size_t>(length / config.dt));
   std::vector<double> noise(n);
   Random random(config.seed);
@@ -182,12 +181,14 @@ GroundMotion synthesize(const SyntheticConfig& config) {
   // Period follows the ground filter and duration the envelope, with little influence crosswise.
   Shape shape{.f_g = 0.7 / config.tm, .t_p = 0.55 * config.d5_95};
   const auto period_error = [&](double ground_period) {
+    progress.poll();
     const Shape trial{.f_g = 1.0 / ground_period, .t_p = shape.t_p};
-    return std::log(mean_period(shaped(config, noise, trial)) / config.tm);
+    return log(mean_period(shaped(config, noise, trial)) / config.tm);
   };
   const auto duration_error = [&](double t_p) {
+    progress.poll();
     const Shape trial{.f_g = shape.f_g, .t_p = t_p};
-    return std::log(significant_duration(shaped(config, noise, trial)) / config.d5_95);
+    return log(significant_duration(shaped(config, noise, trial)) / config.d5_95);
   };
   double tm_error = kUnset, d_error = kUnset;
   for (int round = 0; round < kRounds; ++round) {

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/progress.hpp"
 #include "model/ground_motion.hpp"
 
 #include <optional>
@@ -29,7 +30,7 @@ struct SyntheticConfig {
 
 /// Throws InputError for settings out of range; NumericsError if the measures cannot be reached
 /// together.
-GroundMotion synthesize(const SyntheticConfig& config);
+GroundMotion synthesize(const SyntheticConfig& config, const Progress& progress = {});
 
 /// A motion of the parametric study of Sordo, Rathje and Kumar (2025), Table 4: what the paper
 /// gives for the record, and the settings whose motion resembles it.

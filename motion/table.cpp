@@ -18,7 +18,8 @@ MotionRow measure_record(const std::filesystem::path& path, std::optional<double
                 .npts = record.motion.acceleration.size(),
                 .dt = record.motion.dt,
                 .measures = measure(record.motion),
-                .notes = std::move(record.notes)};
+                .notes = std::move(record.notes),
+                .warnings = std::move(record.warnings)};
   if (scale_to) {
     const double factor = *scale_to / row.measures.pga;
     row.measures.pgv *= factor;

@@ -16,7 +16,7 @@ struct MotionRow {
   std::size_t npts = 0;
   double dt = kUnset;       ///< [s]
   MotionMeasures measures;  ///< pgv and masi of the motion scaled to the wanted pga, if any
-  std::vector<std::string> notes;
+  std::vector<std::string> notes, warnings;
 };
 
 /// Reads and measures a record. `scale_to` is a peak acceleration [m/s2] for pgv and masi alone;

@@ -1,7 +1,6 @@
 #include "motion/write_motion.hpp"
 
-#include <fstream>
-#include <system_error>
+#include "core/files.hpp"
 
 namespace flowslide {
 
@@ -17,18 +16,7 @@ std::string motion_csv(const GroundMotion& motion) {
 }
 
 void write_motion(const std::filesystem::path& path, const GroundMotion& motion) {
-  const std::string text = motion_csv(motion);
-  const std::filesystem::path partial = path.string() + ".partial";
-  std::ofstream out(partial, std::ios::binary);
-  out << text;
-  out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(partial, path, error);
-  if (!out || error)
-    throw FileError(
-        fmt::format("{}: cannot be written (no such folder, no permission, or the "
-                    "disk is full?)",
-                    path.string()));
+  write_file(path, motion_csv(motion));
 }
 
 }  // namespace flowslide

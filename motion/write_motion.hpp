@@ -10,7 +10,7 @@ namespace flowslide {
 /// digits that read back to the same numbers.
 std::string motion_csv(const GroundMotion& motion);
 
-/// Writes motion_csv to `path`.partial and renames it when complete. Throws FileError.
+/// motion_csv as a file. Throws FileError.
 void write_motion(const std::filesystem::path& path, const GroundMotion& motion);
 
 }  // namespace flowslide

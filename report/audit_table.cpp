@@ -1,9 +1,9 @@
 #include "report/audit_table.hpp"
 
 #include "core/check.hpp"
+#include "core/files.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -12,6 +12,8 @@ namespace flowslide {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr std::uint64_t kLargestAudit = 16u << 20u;  ///< bytes; an audit has a few thousand
 
 std::string value_text(const Json& value) {
   if (value.is_number_float()) return fmt::format("{:.4g}", value.get<double>());
@@ -84,12 +86,14 @@ std::string cell(std::string text) {
 }
 
 std::string audit_tables(const std::filesystem::path& audit) {
-  std::ifstream file(audit);
-  if (!file)
-    throw FileError(fmt::format(
-        "{}: cannot be read (the report shows the audit of the transfer) run the transfer again",
-        audit.string()));
-  const Json json = Json::parse(file, nullptr, false);
+  // Tables are made by recursion, which an audit from elsewhere must not drive too deep.
+  constexpr int kDeepest = 32;
+  const auto bounded = [&](int depth, Json::parse_event_t, const Json&) {
+    validate(depth <= kDeepest, "{}: is nested more than {} deep (no audit is) run the transfer again",
+             audit.string(), kDeepest);
+    return true;
+  };
+  const Json json = Json::parse(read_file(audit, kLargestAudit), bounded, false);
   validate(json.is_object(), "{}: is not a JSON object (an audit is one) run the transfer again",
            audit.string());
   std::string rows, tables;

@@ -69,7 +69,9 @@ struct Schema<ReportConfig> {
     v.table("regions", c.regions, "parts of the undeformed section to report by name");
     v.flag("figures", c.figures, "draw the figures (needs python3 with matplotlib)");
     v.flag("paraview", c.paraview, "write flow.pvd and zone.pvd for ParaView");
-    v.text("python", c.python, "interpreter that draws the figures; left out: the first found");
+    v.text("python", c.python,
+           "interpreter that draws the figures, to be allowed with --allow-python; left out: the "
+           "first found");
   }
 };
 

@@ -23,7 +23,7 @@ Json movements(const std::vector<Movement>& list) {
 
 std::string to_json(const ReportFacts& f) {
   Json j;
-  j["runout_m"] = f.runout;
+  j["runout_m"] = is_set(f.toe) ? Json(f.runout) : Json(nullptr);
   j["front_m"] = f.front;
   j["toe_m"] = f.toe;
   j["runout_mass_quantile_m"] = f.runout_mass;

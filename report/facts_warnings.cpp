@@ -72,8 +72,8 @@ void add_warnings(ReportFacts& f, const ParticleSet& p, const FinalState& end,
         f.runout, f.runout_mass, 100.0 * config.mass_quantile));
   if (!is_set(f.toe))
     f.warnings.emplace_back(
-        "No toe was given and the flow stage measured no runout, so the runout is reported as 0. "
-        "Give `toe`.");
+        "No toe was given and the flow stage measured no runout, so the report has none. Give "
+        "`toe`.");
   warn_about_upstream_end(f, p, end);
 }
 

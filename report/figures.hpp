@@ -1,4 +1,6 @@
 #pragma once
+#include "core/progress.hpp"
+
 #include <array>
 #include <filesystem>
 #include <optional>
@@ -28,14 +30,23 @@ struct DrawnFigures {
   std::string problem;          ///< why there are none, and what to do; empty if drawn
 };
 
+struct FigureLimits {
+  Progress progress;       ///< a request to stop ends the interpreter
+  double seconds = 120.0;  ///< so does this time
+};
+
+/// Writes the scripts that draw the figures into an existing folder; returns their paths from the
+/// folder above it.
+std::vector<std::string> write_plot_scripts(const std::filesystem::path& folder);
+
 /// Writes figures/<name>.svg and .png into a report folder that holds data/, runout.csv and
-/// zone.csv (write_plot_data, tables.hpp). The scripts are copied to data/ so that a user can
-/// change and rerun them. `python` is the interpreter; if empty, the first of `python3` on the PATH
-/// and /usr/bin/python3 that has matplotlib.
-/// `only` names the figures to draw, all if empty. Never throws for a missing or failing
-/// interpreter.
+/// zone.csv (write_plot_data, tables.hpp). What is run are the scripts inside this program, never
+/// those of a folder. `python` is the interpreter; if empty, the first of `python3` on the PATH and
+/// /usr/bin/python3 that has matplotlib.
+/// `only` names the figures to draw, all if empty. A missing or failing interpreter is a problem of
+/// the result; FileError is thrown if disk or memory do not suffice, Interrupted on a request.
 DrawnFigures draw_figures(const std::filesystem::path& folder,
-                          const std::optional<std::string>& python,
+                          const std::optional<std::string>& python, const FigureLimits& limits,
                           const std::vector<std::string>& only = {});
 
 }  // namespace flowslide

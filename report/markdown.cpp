@@ -36,12 +36,15 @@ std::string summary(const ReportFacts& f, const ReportConfig& c) {
   if (f.runout > 0.0)
     out = fmt::format("**The flow passed the toe and ran out {:.1f} m** (front at x = {:.1f} m). ",
                       f.runout, f.front);
+  else if (!is_set(f.toe))
+    out = fmt::format(
+        "**The section failed; without a toe there is no runout** (front at x = {:.1f} m). ",
+        f.front);
   else
     out = fmt::format(
         "**The section failed but its front did not pass the toe: the runout is 0 m** (front at x "
-        "= {:.1f} "
-        "m). ",
-        f.front);
+        "= {:.1f} m, {:.1f} m short of the toe). ",
+        f.front, f.toe - f.front);
   out += fmt::format(
       "{:.0f} m3 per metre of width ({:.0f} % of the materials that count) moved by "
       "more than {:g} m; ",
@@ -81,7 +84,8 @@ std::string movements(const std::vector<Movement>& list, std::string_view kind, 
 }
 
 std::string key_numbers(const ReportFacts& f, const ReportConfig& c) {
-  Rows rows{{"runout (fifth-farthest point past the toe)", number(f.runout, 2, "m")},
+  Rows rows{{"runout (fifth-farthest point past the toe)",
+             number(is_set(f.toe) ? f.runout : kUnset, 2, "m")},
             {fmt::format("runout leaving out {:g} % of the failed mass", 100.0 * c.mass_quantile),
              number(f.runout_mass, 2, "m")},
             {"toe, x", number(f.toe, 2, "m")},
@@ -169,7 +173,9 @@ std::string definitions(const ReportConfig& c) {
 std::string report_markdown(const ReportInputs& in, const ReportConfig& c, const ReportFacts& f,
                             const DrawnFigures& drawn) {
   std::string out = fmt::format("# {}\n\n", cell(c.title)) + summary(f, c);
-  if (!f.warnings.empty()) out += "## Read this before using the numbers\n\n" + list(f.warnings);
+  std::vector<std::string> warnings = in.warnings;
+  warnings.insert(warnings.end(), f.warnings.begin(), f.warnings.end());
+  if (!warnings.empty()) out += "## Read this before using the numbers\n\n" + list(warnings);
   out += "## Key numbers\n\n" + key_numbers(f, c);
   out += "## What failed and what stayed\n\n" + movements(f.materials, "material", c.moved);
   if (!f.regions.empty()) out += movements(f.regions, "region", c.moved);
@@ -183,8 +189,8 @@ std::string report_markdown(const ReportInputs& in, const ReportConfig& c, const
       "`facts.json` holds the key numbers, `runout.csv` and `zone.csv` the time series";
   if (c.paraview) out += ", `flow.pvd` and `zone.pvd` the fields for ParaView";
   out +=
-      ". `data/` holds what the figures are drawn from; change `data/plot*.py` and run "
-      "`python3 data/plot.py .` to restyle them.\n";
+      ". `data/` holds what the figures are drawn from. To restyle them, change the scripts in "
+      "`plot/` of the run folder and run `python3 plot/plot.py` there.\n";
   return out;
 }
 

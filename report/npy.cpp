@@ -1,7 +1,7 @@
 #include "report/npy.hpp"
 
 #include "core/check.hpp"
-#include "report/text_file.hpp"
+#include "core/files.hpp"
 
 #include <bit>
 #include <string>

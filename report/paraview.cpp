@@ -11,7 +11,8 @@ namespace {
 
 using Series = std::vector<std::pair<double, std::filesystem::path>>;
 
-void write_flow(const std::filesystem::path& out, const MpmHistory& flow) {
+void write_flow(const std::filesystem::path& out, const MpmHistory& flow,
+                const Progress& progress) {
   const std::filesystem::path folder = out / "flow";
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -22,6 +23,8 @@ void write_flow(const std::filesystem::path& out, const MpmHistory& flow) {
         folder.string(), error.message()));
   Series series;
   for (std::size_t k = 0; k < flow.num_frames(); ++k) {
+    if (progress.should_stop())
+      throw Interrupted("interrupted while files for ParaView were written");
     const MpmFrame frame = flow.frame(k);
     const std::filesystem::path file = folder / fmt::format("frame_{:04}.vtp", k);
     write_vtp(file, flow.initial(), frame);
@@ -56,8 +59,9 @@ void write_zone(const std::filesystem::path& out, const FemHistory& history,
 }  // namespace
 
 void write_paraview(const std::filesystem::path& out, const FemHistory& history,
-                    const LiquefactionZone& zone, const MpmHistory& flow) {
-  write_flow(out, flow);
+                    const LiquefactionZone& zone, const MpmHistory& flow,
+                    const Progress& progress) {
+  write_flow(out, flow, progress);
   write_zone(out, history, zone);
 }
 

@@ -1,12 +1,16 @@
 #!/usr/bin/env python3
 """Draws the figures of a flowslide report.
 
-Usage: plot.py REPORT_FOLDER [NAME...]. Reads REPORT_FOLDER/data, runout.csv and zone.csv, and
-writes REPORT_FOLDER/figures/NAME.svg and .png, all figures if no name is given. Change the style
-here and run it again as you like.
+In the folder of a run, `python3 plot/plot.py` reads report/data, report/runout.csv and
+report/zone.csv and writes plot/figures/NAME.svg and .png; names draw only those. Change what you
+like here, in plot_section.py and in plot_style.py: the program keeps a script that was changed.
 """
+import argparse
 import concurrent.futures
+import ctypes
+import errno
 import pathlib
+import signal
 import sys
 
 from plot_style import BLUE, GREEN, INK, ORANGE, PURPLE, RED, WIDTH  # first: selects the backend
@@ -116,19 +120,48 @@ def figures(folder):
         "final_strength": lambda: plot_section.final_strength(section())}
 
 
-def draw(folder, name):
+def draw(folder, out, name):
     figure = figures(folder)[name]()
     if figure is not None:
-        save(figure, folder / "figures" / f"{name}.svg", "svg", {"Date": None})
-        save(figure, folder / "figures" / f"{name}.png", "png", {"Software": None})
+        save(figure, out / "figures" / f"{name}.svg", "svg", {"Date": None})
+        save(figure, out / "figures" / f"{name}.png", "png", {"Software": None})
 
 
-def main(folder, names):
-    (folder / "figures").mkdir(exist_ok=True)
-    with concurrent.futures.ProcessPoolExecutor() as pool:
-        for drawing in [pool.submit(draw, folder, name) for name in names or figures(folder)]:
+def die_with_parent():
+    """A killed program must not leave processes behind that wait for work for ever."""
+    if sys.platform == "linux":
+        pr_set_pdeathsig = 1
+        ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGKILL)
+
+
+def main(folder, out, names):
+    (out / "figures").mkdir(exist_ok=True)
+    with concurrent.futures.ProcessPoolExecutor(initializer=die_with_parent) as pool:
+        for drawing in [pool.submit(draw, folder, out, name) for name in names or figures(folder)]:
             drawing.result()
 
 
+def run(folder, out, names):
+    """What the program calls: disk and memory that do not suffice have an exit status of their own,
+    for then nothing is wrong with the data."""
+    try:
+        main(pathlib.Path(folder), pathlib.Path(out), names)
+    except (OSError, MemoryError) as error:
+        full = (errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EROFS, errno.ENOMEM, errno.EAGAIN,
+                errno.EMFILE, errno.ENFILE, errno.EFBIG)
+        if isinstance(error, OSError) and error.errno not in full:
+            raise
+        print(f"{type(error).__name__}: {error}", file=sys.stderr)
+        sys.exit(74)
+
+
 if __name__ == "__main__":
-    main(pathlib.Path(sys.argv[1]), sys.argv[2:])
+    here = pathlib.Path(__file__).resolve().parent
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--report", type=pathlib.Path, default=here.parent / "report",
+                        help="report folder [beside the folder of this script]")
+    parser.add_argument("--out", type=pathlib.Path, default=here,
+                        help="where figures/ goes [beside this script]")
+    parser.add_argument("names", nargs="*", help="figures to draw [all]")
+    arguments = parser.parse_args()
+    main(arguments.report, arguments.out, arguments.names)

@@ -1,9 +1,9 @@
 #include "report/plot_data.hpp"
 
+#include "core/files.hpp"
 #include "report/npy.hpp"
 #include "report/section_lines.hpp"
 #include "report/tables.hpp"
-#include "report/text_file.hpp"
 
 #include <cmath>
 

@@ -1,11 +1,11 @@
 #include "report/report.hpp"
 
+#include "core/files.hpp"
 #include "report/figures.hpp"
 #include "report/markdown.hpp"
 #include "report/paraview.hpp"
 #include "report/plot_data.hpp"
 #include "report/tables.hpp"
-#include "report/text_file.hpp"
 
 #include <system_error>
 
@@ -25,7 +25,7 @@ void make_folder(const std::filesystem::path& folder) {
 }  // namespace
 
 ReportFacts write_report(const ReportInputs& in, const ReportConfig& config,
-                         const std::filesystem::path& out) {
+                         const std::filesystem::path& out, const Progress& progress) {
   const FinalState end = final_state(in.particles, in.flow, config);
   ReportFacts facts = compute_facts(in.zone, in.flow, end, config);
   make_folder(out / "data");
@@ -34,11 +34,15 @@ ReportFacts write_report(const ReportInputs& in, const ReportConfig& config,
   write_plot_data(out / "data", in.history, in.zone, in.flow, end, facts, config);
   DrawnFigures drawn;
   if (config.figures) {
-    drawn = draw_figures(out, config.python);
+    // Drawing takes seconds on a machine that has nothing else to do.
+    const double seconds = 300.0 + 1e-3 * static_cast<double>(in.particles.size());
+    drawn = draw_figures(out, config.python, {progress, seconds});
     if (!drawn.problem.empty()) facts.warnings.push_back(drawn.problem);
   }
-  if (config.paraview) write_paraview(out, in.history, in.zone, in.flow);
-  write_file(out / "facts.json", to_json(facts));
+  if (config.paraview) write_paraview(out, in.history, in.zone, in.flow, progress);
+  ReportFacts told = facts;
+  told.warnings.insert(told.warnings.begin(), in.warnings.begin(), in.warnings.end());
+  write_file(out / "facts.json", to_json(told));
   write_file(out / "report.md", report_markdown(in, config, facts, drawn));
   return facts;
 }

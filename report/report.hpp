@@ -1,4 +1,5 @@
 #pragma once
+#include "core/progress.hpp"
 #include "model/history.hpp"
 #include "model/mpm_history.hpp"
 #include "model/particle_set.hpp"
@@ -21,13 +22,14 @@ struct ReportInputs {
   const MpmHistory& flow;
   /// What identifies the run, as (name, text) rows: workflow, versions, hashes of the inputs.
   std::vector<std::pair<std::string, std::string>> provenance;
+  std::vector<std::string> warnings = {};  ///< of the stages before, one sentence each
 };
 
 /// Writes into the existing or new folder `out`: report.md, facts.json, runout.csv, zone.csv,
 /// figures/, data/ (what the figures are drawn from), and flow.pvd and zone.pvd for ParaView.
 /// Figures that cannot be drawn become a warning in the facts and in the report.
-/// Throws InputError if the inputs do not belong together, FileError.
+/// Throws InputError if the inputs do not belong together, FileError, Interrupted.
 ReportFacts write_report(const ReportInputs& inputs, const ReportConfig& config,
-                         const std::filesystem::path& out);
+                         const std::filesystem::path& out, const Progress& progress = {});
 
 }  // namespace flowslide

@@ -1,6 +1,7 @@
 #include "section/limit_equilibrium.hpp"
 
 #include "core/check.hpp"
+#include "core/elementary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,15 +15,15 @@ constexpr int kMostIterations = 200;
 
 double driving(const std::vector<Slice>& slices) {
   double sum = 0.0;
-  for (const Slice& s : slices) sum += s.weight * std::sin(s.angle);
+  for (const Slice& s : slices) sum += s.weight * sin(s.angle);
   return sum;
 }
 
 /// Shear strength of the base without what the forces between slices add [N/m].
 double own_resistance(const Slice& s) {
-  const double length = s.width / std::cos(s.angle);
+  const double length = s.width / cos(s.angle);
   return s.cohesion * length +
-         (s.weight * std::cos(s.angle) - s.pore_pressure * length) * s.tan_friction;
+         (s.weight * cos(s.angle) - s.pore_pressure * length) * s.tan_friction;
 }
 
 /// What the balance at one inclination needs of each slice:
@@ -35,11 +36,11 @@ struct Term {
 std::vector<Term> terms_of(const std::vector<Slice>& slices, double inclination) {
   std::vector<Term> terms;
   terms.reserve(slices.size());
-  const double sine = std::sin(inclination), cosine = std::cos(inclination);
+  const double sine = sin(inclination), cosine = cos(inclination);
   for (const Slice& s : slices) {
     const double turn = s.angle - inclination;
-    terms.push_back({own_resistance(s), s.weight * std::sin(s.angle), std::cos(turn),
-                     std::sin(turn) * s.tan_friction, s.base[0] * sine + s.base[1] * cosine});
+    terms.push_back({own_resistance(s), s.weight * sin(s.angle), cos(turn),
+                     sin(turn) * s.tan_friction, s.base[0] * sine + s.base[1] * cosine});
   }
   return terms;
 }
@@ -123,7 +124,7 @@ std::vector<Slice> cut_slices(const SlopeModel& model, const std::vector<Vec2>& 
       Slice s;
       s.base = {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};
       s.width = (b[0] - a[0]) / n;
-      s.angle = std::atan2(a[1] - b[1], b[0] - a[0]);
+      s.angle = atan2(a[1] - b[1], b[0] - a[0]);
       const Column column = column_above(model, s.base);
       if (!column.inside) return {};
       s.weight = column.weight * s.width;
@@ -138,13 +139,13 @@ std::vector<Slice> cut_slices(const SlopeModel& model, const std::vector<Vec2>& 
 
 std::vector<Vec2> arc(Vec2 centre, double radius, double x_left, double x_right, int legs) {
   const auto angle_at = [&](double x) {
-    return std::asin(std::clamp((x - centre[0]) / radius, -1.0, 1.0));
+    return asin(std::clamp((x - centre[0]) / radius, -1.0, 1.0));
   };
   const double from = angle_at(x_left), to = angle_at(x_right);
   std::vector<Vec2> points;
   for (int i = 0; i <= legs; ++i) {
     const double angle = from + (to - from) * i / legs;
-    points.push_back({centre[0] + radius * std::sin(angle), centre[1] - radius * std::cos(angle)});
+    points.push_back({centre[0] + radius * sin(angle), centre[1] - radius * cos(angle)});
   }
   return points;
 }
@@ -164,7 +165,7 @@ std::optional<double> bishop(const std::vector<Slice>& slices) {
   for (int i = 0; i < kMostIterations; ++i) {
     double resist = 0.0;
     for (const Slice& s : slices) {
-      const double m = std::cos(s.angle) + std::sin(s.angle) * s.tan_friction / factor;
+      const double m = cos(s.angle) + sin(s.angle) * s.tan_friction / factor;
       if (!(m > kLeastDenominator)) return std::nullopt;
       resist +=
           (s.cohesion * s.width + (s.weight - s.pore_pressure * s.width) * s.tan_friction) / m;

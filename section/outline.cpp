@@ -1,5 +1,7 @@
 #include "section/outline.hpp"
 
+#include "core/elementary.hpp"
+
 #include <cmath>
 
 namespace flowslide {
@@ -11,7 +13,7 @@ double cross(Vec2 a, Vec2 b, Vec2 c) {
 
 }  // namespace
 
-double distance(Vec2 a, Vec2 b) { return std::hypot(b[0] - a[0], b[1] - a[1]); }
+double distance(Vec2 a, Vec2 b) { return hypot(b[0] - a[0], b[1] - a[1]); }
 
 double outline_area(std::span<const Vec2> outline) {
   double twice = 0.0;

@@ -1,6 +1,7 @@
 #include "section/quality.hpp"
 
 #include "core/conventions.hpp"
+#include "core/elementary.hpp"
 #include "section/outline.hpp"
 
 #include <algorithm>
@@ -25,7 +26,7 @@ Shape measure(const std::array<Vec2, 4>& q) {
     const double a[2] = {n[0] - c[0], n[1] - c[1]}, b[2] = {p[0] - c[0], p[1] - c[1]};
     const double jacobian = a[0] * b[1] - a[1] * b[0];
     const double edge = distance(c, n);
-    const double angle = std::atan2(jacobian, a[0] * b[0] + a[1] * b[1]) * 180.0 / kPi;
+    const double angle = atan2(jacobian, a[0] * b[0] + a[1] * b[1]) * 180.0 / kPi;
     smallest = k == 0 ? jacobian : std::min(smallest, jacobian);
     largest = k == 0 ? jacobian : std::max(largest, jacobian);
     s.shortest = k == 0 ? edge : std::min(s.shortest, edge);

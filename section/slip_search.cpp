@@ -1,6 +1,7 @@
 #include "section/slip_search.hpp"
 
 #include "core/check.hpp"
+#include "core/elementary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +53,7 @@ struct Arc {
 Arc arc_of(const SlopeModel& model, const SlipSearch& search, double entry, double exit,
            double sag) {
   const Vec2 a{entry, height_at(model.ground, entry)}, b{exit, height_at(model.ground, exit)};
-  const double chord = std::hypot(b[0] - a[0], b[1] - a[1]);
+  const double chord = hypot(b[0] - a[0], b[1] - a[1]);
   if (!(chord > 0.0) || !(sag > 0.0)) return {};
   const double depth = sag * chord;
   Arc arc_found;

@@ -1,6 +1,7 @@
 #include "section/slope.hpp"
 
 #include "core/check.hpp"
+#include "core/elementary.hpp"
 #include "section/outline.hpp"
 
 #include <algorithm>
@@ -125,7 +126,7 @@ Column column_above(const SlopeModel& model, Vec2 point) {
   column.cohesion = base->residual.empty()
                         ? base->cohesion
                         : interpolate(base->residual, column.weight - column.pore_pressure);
-  column.tan_friction = base->residual.empty() ? std::tan(base->friction) : 0.0;
+  column.tan_friction = base->residual.empty() ? tan(base->friction) : 0.0;
   return column;
 }
 

@@ -1,7 +1,9 @@
-#include "tests/support/scratch.hpp"
 #include "tests/support/paths.hpp"
+#include "tests/support/scratch.hpp"
 
+#include <pty.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 
@@ -15,12 +17,41 @@ struct Outcome {
   std::string out, err;
 };
 
-Outcome call(const Scratch& scratch, const std::string& arguments) {
-  const std::string command = "cd '" + scratch.path().string() + "' && " FLOWSLIDE_BINARY " " +
-                              arguments + " >out.txt 2>err.txt";
+/// Root reads what is closed to it, unless it gives that power up.
+const std::string kWithoutPower =
+    ::geteuid() == 0 ? "setpriv --bounding-set=-dac_override,-dac_read_search " : "";
+
+Outcome call(const Scratch& scratch, const std::string& arguments, const std::string& before = "") {
+  const std::string command = "cd '" + scratch.path().string() + "' && " + before +
+                              FLOWSLIDE_BINARY " " + arguments + " >out.txt 2>err.txt";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
           read_text_file(scratch / "out.txt"), read_text_file(scratch / "err.txt")};
+}
+
+/// What a terminal of so many columns shows of a command.
+std::string on_terminal(const Scratch& scratch, const std::string& arguments,
+                        unsigned short columns) {
+  const winsize size{.ws_row = 24, .ws_col = columns, .ws_xpixel = 0, .ws_ypixel = 0};
+  int master = -1;
+  const pid_t child = ::forkpty(&master, nullptr, nullptr, &size);
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    const std::string command =
+        "cd '" + scratch.path().string() + "' && exec " FLOWSLIDE_BINARY " " + arguments;
+    ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+    ::_exit(127);
+  }
+  std::string text;
+  char block[4096];
+  // A terminal whose last process ends gives an error, not an end.
+  for (ssize_t n = 0; (n = ::read(master, block, sizeof block)) > 0;)
+    text.append(block, static_cast<std::size_t>(n));
+  ::close(master);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  CHECK(WIFEXITED(status));
+  return text;
 }
 
 /// One element of 1 m x 1 m at rest: enough to import.
@@ -140,11 +171,273 @@ TEST_CASE("a small import runs, is then up to date, and can be inspected", "[cli
     CHECK_THAT(o.err, Contains("stress.out:2"));
     CHECK_FALSE(std::filesystem::exists(scratch / "out/result.json"));
   }
-  SECTION("so does a workflow that is refused") {
-    o = run(scratch, shake() + "  z: {uses: nothing}\n");
-    CHECK(o.code == 2);
-    CHECK_FALSE(std::filesystem::exists(scratch / "out/result.json"));
+  SECTION("a command that is refused takes nothing away") {
+    const std::string before = read_text_file(scratch / "out/result.json");
+    CHECK(run(scratch, shake() + "  z: {uses: nothing}\n").code == 2);
+    scratch.write("w.yaml", "schema: 1\nname: w\nstages:\n" + shake());
+    CHECK(call(scratch, "run w.yaml --out out --set stages.shake.with.untis=1").code == 2);
+    CHECK(call(scratch, "run w.yaml --out out --redo shaek").code == 2);
+    CHECK_THAT(call(scratch, "run w.yaml --out out --redo shaek").err,
+               Contains("Did you mean 'shake'"));
+    std::filesystem::remove(scratch / "stress.out");
+    CHECK(run(scratch, shake()).code == 4);
+    CHECK(read_text_file(scratch / "out/result.json") == before);
   }
+  SECTION("a stage is run again on request") {
+    o = call(scratch, "run w.yaml --out out --redo shake");
+    CHECK(o.code == 0);
+    CHECK_THAT(o.out, Contains("runs: asked for"));
+  }
+}
+
+TEST_CASE("inspect reads all of a run folder and names what is damaged", "[cli]") {
+  const Scratch scratch;
+  write_model(scratch);
+  REQUIRE(run(scratch, shake()).code == 0);
+  CHECK_THAT(call(scratch, "inspect out --json").out, Contains("\"problems\": []"));
+  int files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(scratch / "out")) {
+    if (!entry.is_regular_file() || entry.file_size() == 0) continue;  // the guard file is empty
+    CAPTURE(entry.path().string());
+    const auto time = std::filesystem::last_write_time(entry.path());
+    const std::string whole = read_text_file(entry.path());
+    std::string bytes = whole;
+    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+    std::ofstream(entry.path(), std::ios::binary) << bytes;
+    std::filesystem::last_write_time(entry.path(), time);
+    const Outcome o = call(scratch, "inspect out");
+    CHECK(o.code == 0);
+    CHECK_THAT(o.out, Contains("problems") && Contains(entry.path().filename().string()));
+    std::ofstream(entry.path(), std::ios::binary) << whole;
+    ++files;
+  }
+  CHECK(files == 5);  // run.lock, result.json, stage.json, facts.json, history.h5
+  CHECK_THAT(call(scratch, "inspect out --json").out, Contains("\"problems\": []"));
+}
+
+TEST_CASE("what cannot be looked at is said with the system's reason", "[cli]") {
+  const Scratch scratch;
+  std::filesystem::create_directory(scratch / "empty");
+  std::filesystem::create_symlink("loop", scratch / "loop");
+  REQUIRE(std::system(("mkfifo '" + (scratch / "pipe").string() + "'").c_str()) == 0);
+  scratch.write("closed/file", "x");
+  std::filesystem::permissions(scratch / "closed", std::filesystem::perms::none);
+  struct Case {
+    std::string path;
+    int code;
+    const char* reason;
+  };
+  const std::vector<Case> cases{
+      {"loop", 4, "symbolic links"},      {std::string(300, 'n'), 4, "too long"},
+      {"missing/out", 4, "No such file"}, {"pipe", 4, "pipe"},
+      {"/dev/zero", 4, "device"},         {"empty", 2, "no run of flowslide"}};
+  for (const Case& c : cases) {
+    CAPTURE(c.path);
+    const Outcome o = call(scratch, "inspect " + c.path);
+    CHECK(o.code == c.code);
+    CHECK_THAT(o.err, Contains(c.reason) && !Contains("internal error"));
+  }
+  for (const char* command : {"inspect closed/file", "inspect closed", "run closed/w.yaml",
+                              "report closed", "run w.yaml --out closed/out"}) {
+    CAPTURE(command);
+    write_model(scratch);
+    scratch.write("w.yaml", "schema: 1\nname: w\nstages:\n" + shake());
+    const Outcome o = call(scratch, command, kWithoutPower);
+    CHECK(o.code == 4);
+    CHECK_THAT(o.err, Contains("ermission denied") && !Contains("internal error"));
+  }
+  std::filesystem::permissions(scratch / "closed", std::filesystem::perms::owner_all);
+}
+
+TEST_CASE("an interpreter that a workflow names is not run without the user's word", "[cli]") {
+  const Scratch scratch;
+  const std::string set = " --set stages.report.with.python=" + (scratch / "python").string();
+  const auto python =
+      scratch.write("python", "#!/bin/sh\ntouch '" + (scratch / "ran").string() + "'\nexit 1\n");
+  std::filesystem::permissions(python, std::filesystem::perms::owner_all);
+  const Outcome o =
+      call(scratch, "run " + test::source("workflows/mochikoshi-static.yaml") + " --out out" + set);
+  CHECK(o.code == 2);
+  CHECK_THAT(o.err, Contains("--allow-python"));
+  CHECK_FALSE(std::filesystem::exists(scratch / "out"));
+  CHECK_FALSE(std::filesystem::exists(scratch / "ran"));
+}
+
+TEST_CASE("words that are no command or stage lead to the nearest", "[cli]") {
+  const Scratch scratch;
+  write_model(scratch);
+  CHECK_THAT(call(scratch, "rum x.yaml").err, Contains("Did you mean 'flowslide run'?"));
+  CHECK_THAT(call(scratch, "xyzzy").err, Contains("Known: run, check"));
+  REQUIRE(run(scratch, shake()).code == 0);
+  const Outcome o = call(scratch, "check w.yaml --set stages.shak.with.bad_rows=stop");
+  CHECK(o.code == 2);
+  CHECK_THAT(o.err, Contains("no such stage") && Contains("Did you mean 'shake'?"));
+}
+
+TEST_CASE("a full disk behind the standard output is a matter of files", "[cli]") {
+  const Scratch scratch;
+  for (const char* arguments : {"schema", "--help", "bench --list"}) {
+    CAPTURE(arguments);
+    const std::string command = std::string(FLOWSLIDE_BINARY " ") + arguments + " >/dev/full 2>'" +
+                                (scratch / "err.txt").string() + "'";
+    CHECK(WEXITSTATUS(std::system(command.c_str())) == 4);
+    CHECK_THAT(read_text_file(scratch / "err.txt"), Contains("standard output"));
+  }
+}
+
+TEST_CASE("files that cannot be read are a matter of files, with the system's reason", "[cli]") {
+  const Scratch scratch;
+  write_model(scratch);
+  std::filesystem::create_symlink("loop", scratch / "loop");
+  std::filesystem::create_symlink("gone", scratch / "link");
+  const std::string name(300, 'x');
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"loop", "cannot be reached"},
+      {"link", "link to gone"},
+      {name, "cannot be reached"},
+      {"no/such/file", "the folder no does not exist"},
+      {"/dev/zero", "no regular file"}};
+  for (const auto& [path, reason] : cases)
+    for (const char* command : {"inspect ", "motion --unit g ", "run ", "check "}) {
+      CAPTURE(command, path);
+      const Outcome o = call(scratch, command + path);
+      CHECK(o.code == 4);
+      if (command == std::string("inspect ")) CHECK_THAT(o.err, Contains(reason));
+    }
+}
+
+TEST_CASE("a missing recorder is named with its line and its folder", "[cli]") {
+  const Scratch scratch;
+  write_model(scratch);
+  const auto with = [&](const std::string& path) {
+    std::string stages = shake();
+    stages.replace(stages.find("stress.out"), 10, path);
+    return run(scratch, stages);
+  };
+  for (const auto& [path, reason] :
+       std::vector<std::pair<std::string, std::string>>{{"gone.out", "no such file"},
+                                                        {"data/stress.out", "the folder"},
+                                                        {"~/stress.out", "'~' is not expanded"},
+                                                        {".", "is a folder"}}) {
+    CAPTURE(path);
+    const Outcome o = with(path);
+    CHECK(o.code == 4);
+    CHECK_THAT(o.err,
+               Contains("w.yaml:9:") && Contains("shake.with.gravity.stress") && Contains(reason));
+  }
+  CHECK(with("stress.out").code == 0);
+}
+
+TEST_CASE("warnings of an import are on the terminal, in the result, and told again", "[cli]") {
+  const Scratch scratch;
+  write_model(scratch);
+  scratch.write("stress.out", "0.1 -4 -8 0\n");
+  Outcome o = run(scratch, shake());
+  CHECK(o.code == 0);
+  CHECK(o.err.empty());  // control
+  scratch.write("stress.out", "0.1 -10000 -20000 0\n");
+  o = run(scratch, shake());
+  CHECK(o.code == 0);
+  CHECK_THAT(o.err, Catch::StartsWith("warning: shake: gravity: total vertical stress grows by"));
+  CHECK_THAT(o.out, Contains("warnings before use"));
+  CHECK_THAT(read_text_file(scratch / "out/result.json"),
+             Contains("\"warnings\": [\n    \"shake: g"));
+  o = run(scratch, shake());
+  CHECK_THAT(o.out, Contains("up to date, 2 warnings (above)"));
+  CHECK_THAT(o.err, Contains("total vertical stress"));
+  CHECK_THAT(call(scratch, "check w.yaml").out, Contains("1 stages, 2 warnings"));
+}
+
+TEST_CASE("lines fit the terminal", "[cli]") {
+  const Scratch scratch;
+  write_model(scratch);
+  scratch.write("stress.out", "0.1 -10000 -20000 0\n");
+  REQUIRE(run(scratch, shake()).code == 0);
+  const std::string run_again =
+      "run w.yaml --out out --set stages.shake.with.sigma_zz.rule=elastic --set "
+      "stages.shake.with.sigma_zz.nu=0.3";
+  for (const unsigned short columns : {40, 60, 80, 120}) {
+    CAPTURE(columns);
+    const std::string text = on_terminal(scratch, run_again + " --dry-run", columns) +
+                             on_terminal(scratch, "run w.yaml --out out", columns);
+    CHECK_THAT(text, Contains("warning: shake: gravity:") && Contains("settings changed"));
+    std::size_t longest = 0, width = 0;
+    for (const char c : text) {
+      width = c == '\n' || c == '\r' ? 0 : width + 1;
+      longest = std::max(longest, width);
+    }
+    CHECK(longest <= columns);
+    if (columns > 60) CHECK(longest > columns / 2);  // the width is used
+  }
+}
+
+TEST_CASE("check reads the files that the workflow names", "[cli]") {
+  const Scratch scratch;
+  write_model(scratch);
+  const auto check = [&](const std::string& stages) {
+    scratch.write("w.yaml", "schema: 1\nname: w\nstages:\n" + stages);
+    return call(scratch, "check w.yaml");
+  };
+  CHECK(check(shake()).code == 0);
+  scratch.write("stress.out", "0.1 -10 -20\n");
+  Outcome o = check(shake());
+  CHECK(o.code == 2);
+  CHECK_THAT(o.err, Contains("stages.shake.with: stress.out: 3 columns"));
+
+  const auto zone = [](const std::string& windows) {
+    return "  zone:\n    uses: transfer.zone\n    in: {history: shake.history}\n    with:\n"
+           "      {when: gravity, zone: all, liquefiable: [1], pond_surface: 1 m" +
+           windows + ", strength: {table: [[20 kPa, 2 kPa]]}}\n";
+  };
+  write_model(scratch);
+  CHECK(check(shake() + zone("")).code == 0);
+  o = check(shake() + zone(", windows: {far: {from: 5 m, to: 6 m}}"));
+  CHECK(o.code == 2);
+  CHECK_THAT(o.err, Contains("windows.far: no node of the liquefiable soil"));
+
+  scratch.write("a.txt", "Sampling Freq(Hz) 100Hz\nScale Factor 1(gal)/2\n 1 2 3 4 5 6 7 8\n");
+  o = check("  m: {uses: motion.prepare, with: {record: a.txt, unit: cm/s2, dt: 10 ms}}\n");
+  CHECK(o.code == 2);
+  CHECK_THAT(o.err, Contains("w.yaml:4:") && Contains("K-NET"));
+  scratch.write("a.AT2", "PEER\nX\nACCELERATION IN UNITS OF G\nNPTS= 3, DT= .02 SEC\n0 98 -20\n");
+  o = check("  m: {uses: motion.prepare, with: {record: a.AT2}}\n");
+  CHECK(o.code == 0);
+  CHECK_THAT(o.err, Contains("warning: m: the motion: the peak is 98 g"));
+}
+
+TEST_CASE("windows are those of the user, or the whole soil", "[cli]") {
+  const Scratch scratch;
+  write_model(scratch);
+  const Outcome o =
+      run(scratch, shake() +
+                       "  zone:\n    uses: transfer.zone\n    in: {history: shake.history}\n"
+                       "    with: {when: gravity, zone: all, liquefiable: [1], pond_surface: 1 m, "
+                       "strength: {table: [[20 kPa, 2 kPa]]}}\n");
+  CHECK(o.code == 0);
+  CHECK_THAT(o.out, Contains("liquefaction depth, all        1 m"));
+}
+
+TEST_CASE("numbers in two pairs of quotes and odd blanks are named", "[cli]") {
+  const Scratch scratch;
+  const auto check = [&](const std::string& with) {
+    scratch.write(
+        "w.yaml",
+        "schema: 1\nname: w\nstages:\n  m:\n    uses: motion.prepare\n    with:\n" + with + "\n");
+    return call(scratch, "check w.yaml");
+  };
+  CHECK(check("      preset: corinth\n      pga: \"0.3 g\"").code == 0);
+  Outcome o = check("      preset: corinth\n      pga: '\"0.3 g\"'");
+  CHECK(o.code == 2);
+  CHECK_THAT(o.err, Contains("w.yaml:8:") && Contains("in quotes twice"));
+  o = check("      preset: corinth\n      pga: '\"5\"'");
+  CHECK_THAT(o.err, Contains("in quotes twice"));
+  o = check("      preset: corinth\n     \xC2\xA0pga: 0.3 g");
+  CHECK(o.code == 2);
+  CHECK_THAT(o.err, Contains("w.yaml:8:6: non-breaking space where YAML needs a blank"));
+  o = check("      preset: corinth\n      pga: 0.3\xC2\xA0g");
+  CHECK_THAT(o.err, Contains("w.yaml:8:") && Contains("non-breaking space"));
+  o = check("      preset: corinth\n      pga: 0,3 g");
+  CHECK_THAT(o.err, Contains("has ',' in a number"));
 }
 
 TEST_CASE("records are measured as text and as JSON", "[cli]") {
@@ -187,8 +480,7 @@ TEST_CASE("the committed workflows pass the check", "[cli]") {
   const Scratch scratch;
   for (const char* name : {"mochikoshi", "mochikoshi-static", "mochikoshi-opensees"}) {
     CAPTURE(name);
-    const Outcome o =
-        call(scratch, "check " + test::source("workflows/") + name + ".yaml");
+    const Outcome o = call(scratch, "check " + test::source("workflows/") + name + ".yaml");
     CHECK(o.code == 0);
     CHECK(o.err.empty());
   }
@@ -250,8 +542,7 @@ TEST_CASE("the committed manual pages are those of the program", "[cli]") {
   for (const auto& entry : std::filesystem::directory_iterator(scratch / "pages")) {
     const std::string name = entry.path().filename().string();
     INFO("build/release/flowslide docs docs/reference writes " << name);
-    CHECK(read_text_file(entry.path()) ==
-          read_text_file(test::source("docs/reference/" + name)));
+    CHECK(read_text_file(entry.path()) == read_text_file(test::source("docs/reference/" + name)));
     ++pages;
   }
   CHECK(pages >= 5);

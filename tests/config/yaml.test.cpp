@@ -2,7 +2,10 @@
 
 #include "tests/config/sample.hpp"
 
+#include <sys/stat.h>
+
 #include <catch2/catch.hpp>
+#include <sys/resource.h>
 
 using namespace flowslide;
 using sample::load_problem;
@@ -49,6 +52,9 @@ TEST_CASE("a file that cannot be read is a FileError", "[config]") {
                     "no-such-file.yaml: cannot be opened (No such file or directory)");
   const YamlFile file("a: 1\n");
   CHECK_THROWS_AS(load_yaml(file.folder()), FileError);
+  CHECK_THROWS_AS(load_yaml("/dev/zero"), FileError);
+  REQUIRE(::mkfifo((file.folder() / "pipe").c_str(), 0600) == 0);
+  CHECK_THROWS_WITH(load_yaml(file.folder() / "pipe"), Catch::Contains("a pipe or a device"));
 }
 
 TEST_CASE("text that is no UTF-8 YAML is refused with its place", "[config]") {
@@ -66,7 +72,7 @@ TEST_CASE("text that is no UTF-8 YAML is refused with its place", "[config]") {
   CHECK(load_problem("a: \xED\xA0\x80\n").find("byte 0xed is not UTF-8") != std::string::npos);
   CHECK(load_problem("a: 1\rb: 2\n").find("case.yaml:1:5: carriage return") == 0);
   CHECK(load_problem("a: \x1b[0m\n").find("case.yaml:1:4: control character 0x1b") == 0);
-  CHECK(load_problem(std::string((16u << 20u) + 1, '#')).find("is larger than 16 MiB") !=
+  CHECK(load_problem(std::string((2u << 20u) + 1, '#')).find("is larger than 2 MiB") !=
         std::string::npos);
 }
 
@@ -140,6 +146,26 @@ TEST_CASE("hostile nesting is refused quickly", "[config]") {
   CHECK(load_problem(repeat("[", 1000) + repeat("]", 1000)).find("more than 64 deep") !=
         std::string::npos);
   CHECK(load_problem(repeat("[", 64) + repeat("]", 64)).empty());
+}
+
+TEST_CASE("long keys above a long list do not multiply", "[config]") {
+  // 60 keys of 1000 letters above 20000 values: as a text in every value they were 1.2 GB.
+  std::string text;
+  for (int depth = 0; depth < 60; ++depth)
+    text += std::string(depth, ' ') + std::string(1000, 'k') + ":\n";
+  text += std::string(60, ' ') + "[1";
+  for (int i = 1; i < 20000; ++i) text += ",1";
+  const YamlFile file(text + "]\n");
+  const auto peak = [] {
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;  // [kB]
+  };
+  const long before = peak();
+  YamlNode node = load_yaml(file.path());
+  while (node.kind() == YamlNode::Kind::map) node = node.entries()[0].second;
+  CHECK(peak() - before < 400'000);
+  CHECK(node.item(19999).path().size() == 60 * 1001 + 5);
 }
 
 TEST_CASE("a near word is found, a far one is not", "[config]") {

@@ -46,6 +46,20 @@ TEST_CASE("a --set option that fits nowhere is refused", "[config]") {
   CHECK(problem(deep + "=1").find("is not of the form") != std::string::npos);
 }
 
+TEST_CASE("a long option of --set is named by its beginning", "[config]") {
+  // Every value of the list has a place, of which the option's text is a part.
+  std::string option = "a.b=[\u00e9";
+  for (int i = 0; i < 10000; ++i) option += ",1";
+  const YamlFile file(kText);
+  const std::vector<std::string> options = {option + "]"};
+  const YamlNode list = *load_yaml(file.path(), options).find("a")->find("b");
+  CHECK(list.size() == 10001);
+  CHECK(list.item(5000).where().text() == "--set " + option.substr(0, 200) + "...");
+  // A letter of two bytes is not cut in two.
+  CHECK(load_problem(kText, {std::string(199, 'x') + "\u00e9"}).find("x...: is not of") !=
+        std::string::npos);
+}
+
 TEST_CASE("a reference takes the value at its path", "[config]") {
   const YamlFile file("a: {b: 1 m, c: \"${d.e}\"}\nd: {e: \"${a.b}\", l: [1, \"${a.c}\"]}\n");
   const YamlNode root = load_yaml(file.path());

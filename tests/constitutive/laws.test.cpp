@@ -6,17 +6,16 @@
 
 using namespace flowslide;
 
-#define FLOWSLIDE_RATE_INDEPENDENT_LAWS                                                    \
-  (LawIn<LinearElastic, 2>), (LawIn<LinearElastic, 3>), (LawIn<MohrCoulomb, 2>),           \
-      (LawIn<MohrCoulomb, 3>), (LawIn<ResidualStrength, 2>), (LawIn<ResidualStrength, 3>), \
-      (LawIn<NeoHookean, 2>), (LawIn<NeoHookean, 3>), (LawIn<DruckerPrager, 2>),           \
-      (LawIn<DruckerPrager, 3>)
-#define FLOWSLIDE_EVERY_LAW                                                                      \
-  FLOWSLIDE_RATE_INDEPENDENT_LAWS, (LawIn<MuI, 2>), (LawIn<MuI, 3>), (LawIn<NewtonianFluid, 2>), \
-      (LawIn<NewtonianFluid, 3>), (LawIn<Bingham, 2>), (LawIn<Bingham, 3>),                      \
-      (LawIn<HerschelBulkley, 2>), (LawIn<HerschelBulkley, 3>)
-
 namespace {
+
+/// A stress that law M may meet: any, or one under pressure.
+template <class M, int Dim>
+Stress<Dim> random_stress(std::mt19937_64& random, double scale) {
+  auto sigma = random_voigt<Stress<Dim>>(random, kNeedsPressure<M> ? 0.5 * scale : scale);
+  if constexpr (kNeedsPressure<M>)
+    for (int i = 0; i < 3; ++i) sigma[i] -= 3.0 * scale;
+  return sigma;
+}
 
 template <class M, int Dim>
 StressUpdate<typename M::State, Dim> in_steps(const typename M::Constants& c,
@@ -50,8 +49,8 @@ Eigen::Matrix3d random_rotation(std::mt19937_64& random, int dim) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("A strain increment of zero changes nothing", "[constitutive]",
-                   FLOWSLIDE_RATE_INDEPENDENT_LAWS) {
+TEMPLATE_LIST_TEST_CASE("A strain increment of zero changes nothing", "[constitutive]",
+                        LawsOfStrainIn2And3) {
   using M = typename TestType::M;
   constexpr int dim = TestType::dim;
   auto params = sample_params<M>();
@@ -63,13 +62,14 @@ TEMPLATE_TEST_CASE("A strain increment of zero changes nothing", "[constitutive]
   for (int i = 0; i < 1000; ++i) {
     // Any admissible stress: what an update has returned.
     const auto start =
-        update<M, dim>(c, M::initial_state(params), random_voigt<Stress<dim>>(random, 50e3), {});
+        update<M, dim>(c, M::initial_state(params), random_stress<M, dim>(random, 50e3), {});
     const auto r = update<M, dim>(c, start.state, start.stress, {});
     CHECK(distance(r.stress, start.stress) <= 1e-10 * 50e3);
     auto state = r.state;
     if constexpr (requires { state.plastic_strain; }) {
       CHECK(state.plastic_strain == Approx(start.state.plastic_strain).epsilon(1e-10));
-      CHECK(state.gap == Approx(start.state.gap).epsilon(1e-10));
+      if constexpr (requires { state.gap; })
+        CHECK(state.gap == Approx(start.state.gap).epsilon(1e-10));
     } else {
       CHECK(same_state(state, start.state));
     }
@@ -80,14 +80,14 @@ TEMPLATE_TEST_CASE("A strain increment of zero changes nothing", "[constitutive]
   CHECK(moved > 900);  // control: strain does change the stress
 }
 
-TEMPLATE_TEST_CASE("Turning the axes turns the answer", "[constitutive]", FLOWSLIDE_EVERY_LAW) {
+TEMPLATE_LIST_TEST_CASE("Turning the axes turns the answer", "[constitutive]", EveryLawIn2And3) {
   using M = typename TestType::M;
   constexpr int dim = TestType::dim;
   const auto params = sample_params<M>();
   const auto c = M::constants(params, 1.0);
   std::mt19937_64 random(2);
   for (int i = 0; i < 2000; ++i) {
-    const auto sigma = random_voigt<Stress<dim>>(random, 20e3);
+    const auto sigma = random_stress<M, dim>(random, 20e3);
     const auto de = random_voigt<StrainIncrement<dim>>(random, 1e-3);
     const Eigen::Matrix3d r = random_rotation(random, dim);
     const auto a = update<M, dim>(c, M::initial_state(params), sigma, de);
@@ -98,21 +98,21 @@ TEMPLATE_TEST_CASE("Turning the axes turns the answer", "[constitutive]", FLOWSL
     CHECK((r * tensor(a.stress) * r.transpose() - tensor(b.stress)).norm() < 1e-11 * scale);
     if constexpr (requires { a.state.plastic_strain; }) {
       CHECK(b.state.plastic_strain == Approx(a.state.plastic_strain).margin(1e-13));
-      CHECK(b.state.gap == Approx(a.state.gap).margin(1e-13));
+      if constexpr (requires { a.state.gap; })
+        CHECK(b.state.gap == Approx(a.state.gap).margin(1e-13));
     }
   }
 }
 
-TEMPLATE_TEST_CASE("Plane strain is three dimensions with the same data", "[constitutive]",
-                   LinearElastic, MohrCoulomb, ResidualStrength, NeoHookean, DruckerPrager, MuI,
-                   NewtonianFluid, Bingham, HerschelBulkley) {
+TEMPLATE_LIST_TEST_CASE("Plane strain is three dimensions with the same data", "[constitutive]",
+                        EveryLaw) {
   using M = TestType;
   const auto params = sample_params<M>();
   const auto c = M::constants(params, 1.0);
   std::mt19937_64 random(3);
   int plastic = 0;
   for (int i = 0; i < 20000; ++i) {
-    const auto sigma = random_voigt<Stress<2>>(random, 20e3);
+    const auto sigma = random_stress<M, 2>(random, 20e3);
     auto de = random_voigt<StrainIncrement<2>>(random, 1e-3);
     if (i % 2) de[2] = 0.0;
     const auto flat = update<M, 2>(c, M::initial_state(params), sigma, de);
@@ -127,11 +127,11 @@ TEMPLATE_TEST_CASE("Plane strain is three dimensions with the same data", "[cons
     plastic += yielded(M::initial_state(params), flat.state);
   }
   constexpr bool elastic = std::is_same_v<M, LinearElastic> || std::is_same_v<M, NeoHookean>;
-  CHECK((plastic > 5000) == !elastic);
+  CHECK((plastic > 2000) == !elastic);
 }
 
-TEMPLATE_TEST_CASE("An increment in parts comes close to the whole", "[constitutive]",
-                   FLOWSLIDE_RATE_INDEPENDENT_LAWS) {
+TEMPLATE_LIST_TEST_CASE("An increment in parts comes close to the whole", "[constitutive]",
+                        LawsOfStrainIn2And3) {
   using M = typename TestType::M;
   constexpr int dim = TestType::dim;
   const auto params = sample_params<M>();
@@ -154,12 +154,13 @@ TEMPLATE_TEST_CASE("An increment in parts comes close to the whole", "[constitut
   CAPTURE(error1, error4, travelled);
   // Softening lags by a step: first order, a quarter of the step is a quarter of the error.
   CHECK(error1 < 0.02 * travelled);
-  CHECK(error4 < std::max(0.4 * error1, 3e-5 * travelled));
+  // NorSand divides every increment itself, so a smaller one cannot be much worse or better.
+  const double share = std::is_same_v<M, NorSand> ? 1.1 : 0.4;
+  CHECK(error4 < std::max(share * error1, 3e-5 * travelled));
 }
 
-TEMPLATE_TEST_CASE("Eight points at once are eight points one by one", "[constitutive]",
-                   LinearElastic, MohrCoulomb, ResidualStrength, NeoHookean, DruckerPrager, MuI,
-                   NewtonianFluid, Bingham) {
+TEMPLATE_LIST_TEST_CASE("Eight points at once are eight points one by one", "[constitutive]",
+                        LawsWithPacks) {
   using M = TestType;
   using PackState = typename M::template StateOf<Pack>;
   constexpr std::size_t states = M::state_names.size();

@@ -22,12 +22,12 @@ PointConfig elastic() {
 /// Of the Mochikoshi dam, sheared at 100 kPa.
 PointConfig tailings() {
   PointConfig c;
-  c.material.pm4sand = PM4Sand::Params{};
-  c.material.pm4sand->Dr = 0.35;
-  c.material.pm4sand->G0 = 476.0;
-  c.material.pm4sand->hpo = 2.70;
-  c.material.pm4sand->Q = 11.998;
-  c.material.pm4sand->R = 3.75;
+  c.material.laws.of<PM4Sand>() = PM4Sand::Params{};
+  c.material.laws.of<PM4Sand>()->Dr = 0.35;
+  c.material.laws.of<PM4Sand>()->G0 = 476.0;
+  c.material.laws.of<PM4Sand>()->hpo = 2.70;
+  c.material.laws.of<PM4Sand>()->Q = 11.998;
+  c.material.laws.of<PM4Sand>()->R = 3.75;
   c.stress.vertical = 100e3;
   c.simple_shear.emplace();
   return c;
@@ -107,7 +107,7 @@ TEST_CASE("settings of a point that cannot be run are refused", "[point]") {
   c.path = {{.strain_xx = 1e-3, .stress_xx = -1e3}};
   CHECK_THROWS_WITH(check(c), Contains("leg 1") && Contains("xx"));
   c.material.laws.of<LinearElastic>().reset();
-  CHECK_THROWS_WITH(check(c), Contains("0 laws"));
+  CHECK_THROWS_WITH(check(c), Contains("0 constitutive laws"));
 }
 
 TEST_CASE("a stress beyond the strength names its leg", "[point]") {

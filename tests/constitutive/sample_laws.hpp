@@ -71,6 +71,31 @@ inline HerschelBulkley::Params sample(HerschelBulkley::Params p) {
   p.yield_stress = 200.0;
   return p;
 }
+inline PM4Sand::Params sample(PM4Sand::Params p) {
+  p.Dr = 0.35;
+  p.G0 = 476.0;
+  p.hpo = 0.53;
+  return p;
+}
+inline ModifiedCamClay::Params sample(ModifiedCamClay::Params p) {
+  p.critical_ratio = 1.1;
+  p.compression_index = 0.1;
+  p.swelling_index = 0.02;
+  p.poisson_ratio = 0.25;
+  p.preconsolidation = 72e3;
+  return p;
+}
+inline NorSand::Params sample(NorSand::Params p) {
+  p.critical_ratio = 1.25;
+  p.csl_void_ratio = 0.9;
+  p.csl_slope = 0.03;
+  p.dilatancy = 3.5;
+  p.hardening = 150.0;
+  p.shear_modulus = 50e6;
+  p.void_ratio = 0.75;
+  p.image_pressure = 200e3;
+  return p;
+}
 template <class M>
 typename M::Params sample_params() {
   return sample(typename M::Params{});
@@ -88,17 +113,50 @@ StressUpdate<typename M::State, Dim> update(const typename M::Constants& c,
 /// Whether an update left the elastic range.
 template <class State>
 bool yielded(const State& before, const State& after) {
+  bool plastic = false;
   if constexpr (requires { before.plastic_strain; })
-    return after.plastic_strain > before.plastic_strain || after.gap > before.gap;
-  else
-    return false;
+    plastic = plastic || after.plastic_strain > before.plastic_strain;
+  if constexpr (requires { before.gap; }) plastic = plastic || after.gap > before.gap;
+  return plastic;
 }
+
+/// Laws of critical states live under pressure only; their stiffness follows it.
+template <class M>
+inline constexpr bool kNeedsPressure =
+    std::is_same_v<M, ModifiedCamClay> || std::is_same_v<M, NorSand>;
 
 template <class M_, int Dim_>
 struct LawIn {
   using M = M_;
   static constexpr int dim = Dim_;
 };
+
+/// Type lists for tests, made from the list of laws: a law that is added is tested.
+template <class M>
+struct FollowsStrain {
+  static constexpr bool value = !requires { M::rate_dependent; };
+};
+template <class M>
+struct HasPacks {
+  static constexpr bool value = !kNeedsPressure<M> && !std::is_same_v<M, HerschelBulkley>;
+};
+template <class>
+struct InBoth;
+template <class... M>
+struct InBoth<LawList<M...>> {
+  using type = std::tuple<LawIn<M, 2>..., LawIn<M, 3>...>;
+};
+template <class>
+struct Plain;
+template <class... M>
+struct Plain<LawList<M...>> {
+  using type = std::tuple<M...>;
+};
+using EveryLaw = Plain<FlowLaws>::type;
+using EveryLawIn2And3 = InBoth<FlowLaws>::type;
+using LawsOfStrainIn2And3 = InBoth<Filtered<FlowLaws, FollowsStrain>>::type;
+using EveryShakingLaw = Plain<ShakingLaws>::type;
+using LawsWithPacks = Plain<Filtered<FlowLaws, HasPacks>>::type;
 
 /// Components that are not small: a normal distribution of the given scale.
 template <class V>

@@ -14,7 +14,7 @@ TEST_CASE("Roots and reciprocals of lanes are those of the library to round-off"
   for (int i = 0; i < 2000; ++i) {
     Pack x;
     for (int k = 0; k < Pack::lanes; ++k) x.v[k] = std::pow(10.0, exponent(random));
-    const Pack a = reciprocal(x), minus = reciprocal(-x), b = inverse_sqrt(x), c = quick_sqrt(x);
+    const Pack a = reciprocal(x), minus = reciprocal(-x), b = inverse_sqrt(x), c = sqrt(x);
     for (int k = 0; k < Pack::lanes; ++k) {
       CHECK(a[k] == Approx(1.0 / x[k]).epsilon(1e-15));
       CHECK(minus[k] == -a[k]);
@@ -22,7 +22,23 @@ TEST_CASE("Roots and reciprocals of lanes are those of the library to round-off"
       CHECK(c[k] == Approx(std::sqrt(x[k])).epsilon(1e-15));
     }
   }
-  CHECK(quick_sqrt(Pack(0.0))[0] == 0.0);
+  CHECK(sqrt(Pack(0.0))[0] == 0.0);
+}
+
+TEMPLATE_TEST_CASE("A sum over points has the order of the widest registers", "[core]", Pack,
+                   PackPair) {
+  constexpr int lanes = kLanes<TestType>, widest = 8 * lanes / Pack::lanes, n = 1003;
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  std::vector<double> x(n), part(widest, 0.0);
+  OrderedSum<TestType> sum;
+  for (double& value : x) value = uniform(random);
+  for (int i = 0; i < n; i += lanes)
+    sum.add(select(first_lanes<TestType>(n - i), load_lanes<TestType>(&x[i], std::min(lanes, n - i)),
+                   TestType(0.0)));
+  for (int i = 0; i < n; ++i) part[i % widest] += x[i];
+  CHECK(sum.total() == std::accumulate(part.begin(), part.end(), 0.0));
+  CHECK(sum.total() != std::accumulate(x.begin(), x.end(), 0.0));  // control: the order matters
 }
 
 TEMPLATE_TEST_CASE("Lanes are loaded, counted and stored as many as there are", "[core]", double,
@@ -32,9 +48,9 @@ TEMPLATE_TEST_CASE("Lanes are loaded, counted and stored as many as there are", 
   std::iota(from.begin(), from.end(), 1.0);
   for (int n = 1; n <= lanes; ++n) {
     const auto x = load_lanes<TestType>(from.data(), n);
-    CHECK(sum_lanes(select(first_lanes<TestType>(n), x, TestType(0.0)), lanes) ==
-          0.5 * n * (n + 1));
-    CHECK(sum_lanes(x, n) == 0.5 * n * (n + 1));
+    OrderedSum<TestType> sum;
+    sum.add(select(first_lanes<TestType>(n), x, TestType(0.0)));
+    CHECK(sum.total() == 0.5 * n * (n + 1));
     CHECK(max_lanes(x) == double(n));
     std::vector<double> to(lanes, -1.0);
     store_lanes(to.data(), 2.0 * x, n);

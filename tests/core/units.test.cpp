@@ -1,5 +1,8 @@
 #include "core/units.hpp"
 
+#include <cmath>
+#include <string>
+
 #include <catch2/catch.hpp>
 
 #include "core/check.hpp"
@@ -42,6 +45,14 @@ TEST_CASE("numbers are read without a locale", "[core]") {
   CHECK((parse_number("1e-005", value, used) && value == 1e-5));
   CHECK((parse_number("4e-310", value, used) && value == 4e-310));
   CHECK((parse_number("1e-400", value, used) && value == 0.0));
+  // What no double holds is zero or infinite by its size, not by its spelling.
+  const std::string zeros(400, '0');
+  for (const std::string& small : {"0." + zeros + "1", "-0." + zeros + "1", "1" + zeros + "e-900",
+                                   "." + zeros + "1e9", std::string("9E-0400")})
+    CHECK((parse_number(small, value, used) && value == 0.0 && used == small.size()));
+  for (const std::string& large : {"1" + zeros, "1" + zeros + ".5", "1" + zeros + "e-5",
+                                   "0.001e" + std::string("400"), "-1" + zeros + "E+1"})
+    CHECK((parse_number(large, value, used) && std::isinf(value) && used == large.size()));
   CHECK((parse_number("1,5", value, used) && used == 1));
   CHECK_FALSE(parse_number("+-1", value, used));
   CHECK_FALSE(parse_number("****", value, used));

@@ -2,6 +2,7 @@
 
 #include "core/check.hpp"
 #include "tests/model/scratch.hpp"
+#include "tests/support/limited_files.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -62,4 +63,17 @@ TEST_CASE("what text cannot say is refused") {
   CHECK_FALSE(std::filesystem::exists(scratch / "out/velocity.out"));
   put_bytes(scratch / "file", "x");
   CHECK_THROWS_AS(write_opensees_recorders(scratch / "file/out", history), FileError);
+}
+
+TEST_CASE("recorders on a full disk are whole or not there") {
+  const Scratch scratch;
+  FemHistoryWriter writer(scratch / "h.h5", one_cell(), {});
+  writer.set_gravity(frame(0.0, 0.0));
+  for (int k = 1; k < 40; ++k) writer.append(frame(k / 3.0, k / 7.0));
+  writer.finish();
+  flowslide::test::check_limited_files(
+      [&](const std::filesystem::path& folder) {
+        write_opensees_recorders(folder / "out", FemHistory(scratch / "h.h5"));
+      },
+      20);
 }

@@ -1,4 +1,4 @@
-#include "fem/verify/scene.hpp"
+#include "verify/fem/scene.hpp"
 
 #include <numeric>
 
@@ -78,8 +78,8 @@ TEST_CASE("Messages of the model name what does not fit", "[fem]") {
   c.materials.erase("soil");
   CHECK_THROWS_WITH(build_model(s, c), Contains("soil"));
   c = config(elastic_soil(), 4.0);
-  c.materials["soil"].mohr_coulomb = MohrCoulomb::Params{};
-  CHECK_THROWS_WITH(build_model(s, c), Contains("2 laws"));
+  c.materials["soil"].laws.of<MohrCoulomb>() = MohrCoulomb::Params{};
+  CHECK_THROWS_WITH(build_model(s, c), Contains("2 constitutive laws"));
   c = config(elastic_soil(), 4.0);
   c.base.motion = BaseMotionKind::outcrop;
   CHECK_THROWS_WITH(build_model(s, c), Contains("rigid"));

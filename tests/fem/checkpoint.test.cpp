@@ -1,6 +1,9 @@
 #include "fem/checkpoint.hpp"
 
-#include "fem/verify/scene.hpp"
+#include "fem/build_model.hpp"
+#include "fem/gravity.hpp"
+#include "fem/time_step.hpp"
+#include "verify/fem/scene.hpp"
 #include "model/history.hpp"
 #include "tests/support/scratch.hpp"
 
@@ -36,7 +39,7 @@ struct Scene {
     mc.residual_cohesion = 0.0;
     mc.residual_friction_angle = 0.2;
     mc.residual_strain = 0.01;
-    settings.materials["crust"].mohr_coulomb = mc;
+    settings.materials["crust"].laws.of<MohrCoulomb>() = mc;
     settings.base = {BaseMotionKind::outcrop, 400.0, 2000.0, true};
     settings.sides.kind = SideKind::free_field;
     settings.damping.mass = 0.1;
@@ -237,4 +240,54 @@ TEST_CASE("A checkpoint of another run is refused", "[fem]") {
   other_run([](Scene& s) { s.mesh.mesh.nodes[7][0] += 1e-9; });
   other_run([](Scene& s) { std::swap(s.mesh.materials[0].name, s.mesh.materials[1].name); });
   CHECK_NOTHROW(Scene().run(folder.path()));  // control
+}
+
+TEST_CASE("A checkpoint whose numbers cannot be those of the shaking is refused", "[fem]") {
+  const Scene scene;
+  const Scratch folder;
+  scene.interrupt_after(folder.path(), 0.3);
+  const std::string good = read_text_file(folder / "checkpoint");
+  const std::string origin = fingerprint(scene.mesh, scene.motion, scene.settings, "");
+  const auto forged = [&](auto change) {
+    folder.write("checkpoint", good);
+    Solver s = make_solver(build_model(scene.mesh, scene.settings), {});
+    solve_gravity(s, {kUnset, scene.settings.gravity.compacts});
+    refresh_moduli(s);
+    start_motion(s);
+    RunState run;
+    read_checkpoint(folder / "checkpoint", origin, s, run);
+    change(s, run);
+    write_checkpoint(folder / "checkpoint", origin, s, run);
+    static const std::atomic<bool> stop{true};
+    Progress progress;
+    progress.stop_requested = &stop;
+    try {
+      scene.run(folder.path(), progress);
+    } catch (const Interrupted&) {
+      return std::string("(none)");
+    } catch (const FileError& e) {
+      return std::string(e.what());
+    }
+    return std::string("(finished)");
+  };
+  REQUIRE(forged([](auto&, auto&) {}) == "(none)");  // control
+  const auto fits_not = [&](auto change) {
+    CHECK_THAT(forged([&](auto& s, auto&) { change(s); }), Contains("arrays do not fit"));
+  };
+  fits_not([](auto& s) { s.state.displacement.pop_back(); });
+  fits_not([](auto& s) { s.state.pressure.clear(); });
+  fits_not([](auto& s) { s.state.stress.emplace_back(); });
+  fits_not([](auto& s) { std::get<fem::LawStates<PM4Sand>>(s.state.laws).of.pop_back(); });
+  fits_not([](auto& s) { s.entry_force.resize(s.entry_force.size() + 8); });
+  const auto order = [&](auto change) {
+    CHECK_THAT(forged(change), Contains("times, steps"));
+  };
+  order([](auto& s, auto&) { s.state.time = kUnset; });
+  order([](auto& s, auto&) { s.state.time = -1e300; });
+  order([](auto& s, auto&) { s.state.step = -5; });
+  order([](auto& s, auto&) { s.dt = kUnset; });
+  order([](auto&, auto& run) { run.output = -3; });
+  order([](auto&, auto& run) { run.output += 1; });
+  order([](auto&, auto& run) { run.since = 1 << 30; });
+  order([](auto&, auto& run) { run.implicit.halvings = 1 << 30; });
 }

@@ -1,4 +1,4 @@
-#include "fem/verify/scene.hpp"
+#include "verify/fem/scene.hpp"
 #include "tests/support/paths.hpp"
 
 #include <fstream>
@@ -63,12 +63,12 @@ FemMaterialConfig soil_of(double density, double e, double Dr, double G0, double
   m.density = density;
   m.void_ratio = e;
   m.permeability = {1e-6, 1e-6};
-  m.pm4sand.emplace();
-  m.pm4sand->Dr = Dr;
-  m.pm4sand->G0 = G0;
-  m.pm4sand->hpo = 0.4;
-  m.pm4sand->Q = Q;
-  m.pm4sand->R = R;
+  m.laws.of<PM4Sand>().emplace();
+  m.laws.of<PM4Sand>()->Dr = Dr;
+  m.laws.of<PM4Sand>()->G0 = G0;
+  m.laws.of<PM4Sand>()->hpo = 0.4;
+  m.laws.of<PM4Sand>()->Q = Q;
+  m.laws.of<PM4Sand>()->R = R;
   return m;
 }
 

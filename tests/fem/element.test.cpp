@@ -1,5 +1,5 @@
 #include "model/shape_quad.hpp"
-#include "fem/verify/scene.hpp"
+#include "verify/fem/scene.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
 #include "fem/implicit.hpp"
 
-#include "fem/verify/scene.hpp"
+#include "verify/fem/scene.hpp"
 #include "model/history.hpp"
 #include "tests/support/scratch.hpp"
 

@@ -1,4 +1,4 @@
-#include "fem/verify/scene.hpp"
+#include "verify/fem/scene.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -144,8 +144,46 @@ TEST_CASE("gmsh files that are no section are refused with their place") {
   CHECK_THAT(error_of(kFormat2, "$Elements\n6", "$Elements\n7"), Contains("not an element"));
   CHECK_THAT(error_of(kFormat2, "$Elements\n6", "$Elements\n5"), Contains("more lines"));
   CHECK_THAT(error_of(kFormat2, "$Elements\n6", "$Elements\n1e99"), Contains("whole number"));
+  // 2^32 + 168 is not 168.
+  CHECK_THAT(error_of(kFormat2, "10 3 2 168", "10 3 2 4294967464"),
+             Contains("dam.msh:26: physical group 4294967464 is larger"));
+  CHECK_THAT(error_of(kFormat2, "10 3 2 168", "10 4294967299 2 168"),
+             Contains("type 4294967299 is larger"));
+  CHECK_THAT(error_of(kFormat2, "2 168 \"", "2 4294967464 \""), Contains("is larger"));
+  CHECK_THAT(error_of(kFormat2, "2 168 \"", "2x168 \""), Contains("dimension, number, \"name\""));
+  CHECK_THAT(error_of(kFormat2, "2 168 \"", "168 \""), Contains("dimension, number, \"name\""));
+  CHECK_THAT(error_of(kFormat4, "1 0 0 0 1 1 0 1 168", "1 0 0 0 1 1 0 1 4294967464"),
+             Contains("is larger"));
   CHECK_THAT(error_of(kFormat4, "$EndElements\n", ""), Contains("ends inside $Elements"));
   CHECK_THAT(error_of(kFormat2, "$MeshFormat\n", "solid dam\n"), Contains("is this a .msh"));
+}
+
+TEST_CASE("soil that is in a gmsh file twice is refused") {
+  CHECK_THAT(error_of(kFormat2, "$Elements\n6\n", "$Elements\n7\n100 3 2 170 1 2 5 4 1\n"),
+             Contains("such as 100 and 10 with the same nodes") && Contains("'deep clay'") &&
+                 Contains("'tailings'") && Contains("one physical group"));
+  CHECK_THAT(error_of(kFormat4, "1 1 0 1 168 4", "1 1 0 2 168 170 4"),
+             Contains("surface 1 is in 2 physical groups"));
+}
+
+TEST_CASE("soil that is not joined is refused") {
+  // The right square with nodes of its own on the common side.
+  std::string text = kFormat2;
+  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+           {"$Nodes\n7\n", "$Nodes\n9\n12 1 0 0\n15 1 1.0000001 0\n"},
+           {"11 3 2 170 2 2 5 6 3", "11 3 2 170 2 12 15 6 3"}})
+    text.replace(text.find(from), from.size(), to);
+  CHECK_THAT(error_of(text, "9 9 9 0", "9 9 9 0"),
+             Contains("2 nodes lie on another node, such as") && Contains("falls into 2 parts") &&
+                 Contains("Coherence"));
+}
+
+TEST_CASE("odd characters in gmsh files are named") {
+  CHECK_THAT(error_of(kFormat2, "6 2 1 0", "6 2,5 1 0"), Contains("decimal comma"));
+  CHECK_THAT(error_of(kFormat2, "6 2 1 0",
+                      "6 2\xC2\xA0"
+                      "1 0"),
+             Contains("non-breaking space"));
 }
 
 TEST_CASE("materials of imported meshes can be named") {

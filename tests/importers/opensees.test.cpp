@@ -298,6 +298,94 @@ TEST_CASE("implausible states are warned of, not corrected", "[importers]") {
   CHECK_THAT(model.run_import().warnings.back(), Contains("pore pressure is nowhere 1 %"));
 }
 
+TEST_CASE("a recorder that ended early is warned about", "[importers]") {
+  const auto all = [](const ImportReport& report) {
+    return fmt::format("{}", fmt::join(report.warnings, "\n"));
+  };
+  SmallModel model;
+  CHECK(all(model.run_import()).empty());
+  model.folder.write("stress.out", SmallModel::stress_rows(1, 2));
+  CHECK_THAT(all(model.run_import()), Contains("stress.out ends at 0.25 s, others at 0.75 s"));
+
+  // Every second row of the others: a recorder with -dT is no fault.
+  SmallModel thin;
+  thin.folder.write("stress.out",
+                    "0.25 -2 -4.1 -0.5 -2 -4.2 -0.5\n0.75 -2 -4.1 -0.5 -2 -4.2 -0.5\n");
+  CHECK(all(thin.run_import()).empty());
+
+  SmallModel digits;  // two rows that print the same time
+  std::string text = SmallModel::stress_rows(1, 4);
+  text.replace(text.find("0.5 "), 4, "0.25 ");
+  digits.folder.write("stress.out", text);
+  CHECK_THAT(all(digits.run_import()), Contains("-precision"));
+}
+
+TEST_CASE("displacements are held against the section", "[importers]") {
+  const auto with = [](double x) {
+    SmallModel model;
+    model.folder.write("displacement.out", SmallModel::rows(1, 4, 12, [x](int i, int r) {
+                         return i == 10 ? x * r : SmallModel::displacement(1 + i / 2, i % 2, r);
+                       }));
+    return fmt::format("{}", fmt::join(model.run_import().warnings, "\n"));
+  };
+  CHECK(with(0.1).empty());
+  CHECK_THAT(with(0.25), Contains("node 6 has moved by 0.75") && Contains("at t = 0.75 s"));
+  CHECK_THROWS_WITH(with(4e9), Contains("node 6 has moved by 4e+09 m at t = 0.25 s"));
+
+  SmallModel folded;  // the right element turned inside out
+  folded.folder.write("displacement.out", SmallModel::rows(1, 4, 12, [](int i, int r) {
+                        return r == 3 && (i == 4 || i == 10) ? -1.5 : 0.0 * i;
+                      }));
+  CHECK_THAT(fmt::format("{}", fmt::join(folded.run_import().warnings, "\n")),
+             Contains("1 elements are folded from t = 0.75 s on, such as 20"));
+}
+
+TEST_CASE("one node that a recorder lacks is told from a missing time column", "[importers]") {
+  SmallModel model;
+  const auto five = [](int first, int last) {
+    return SmallModel::rows(first, last, 5,
+                            [](int i, int r) { return SmallModel::pressure(1 + i, r); });
+  };
+  model.folder.write("porePressure.out", five(1, 4));
+  CHECK_THROWS_WITH(model.run_import(), Contains("porePressure.out: 6 columns") &&
+                                            Contains("The first column is time, so one node is") &&
+                                            !Contains("There is no time column"));
+  // One row cannot tell; both are said.
+  SmallModel one;
+  one.folder.write("GporePressure.out", five(0, 1));
+  CHECK_THROWS_WITH(one.run_import(),
+                    Contains("There is no time column") && Contains("Or one node is missing"));
+  // Control: values without a time column.
+  SmallModel none;
+  none.folder.write("porePressure.out",
+                    "9.9 9.8 9.9 0.1 0 0.1\n9.7 9.9 9.8 0.2 0 0.1\n"
+                    "9.8 9.8 9.9 0.1 0 0.2\n");
+  CHECK_THROWS_WITH(none.run_import(),
+                    Contains("There is no time column") && !Contains("is missing"));
+}
+
+TEST_CASE("a look at the files finds what the import would", "[importers]") {
+  SmallModel model;
+  CHECK(preview_opensees(model.config).mesh.num_elements() == 2);
+  CHECK(preview_opensees(model.config).warnings.empty());
+  model.folder.write("stress.out", SmallModel::stress_rows(1, 2));
+  CHECK_THAT(preview_opensees(model.config).warnings.at(0), Contains("stress.out ends at"));
+  model.folder.write("velocity.out", SmallModel::pressure_rows(1, 4));
+  CHECK_THROWS_WITH(preview_opensees(model.config), Contains("velocity.out: 7 columns"));
+  model.folder.write("elementinfo.dat", "10 1 2 5 4 168\n20 2 3 6 5 170\n30 5 4 1 2 168\n");
+  CHECK_THROWS_WITH(preview_opensees(model.config), Contains("such as 10 and 30"));
+}
+
+TEST_CASE("nodes that are not joined are warned about", "[importers]") {
+  SmallModel model;
+  model.config.shaking.reset();
+  model.folder.write("nodeinfo.dat", "1 0 0\n2 1 0\n3 2 0\n4 0 1\n5 1 1\n6 2 1\n7 1 0\n8 1 1\n");
+  model.folder.write("elementinfo.dat", "10 1 2 5 4 168\n20 7 3 6 8 170\n");
+  model.folder.write("GporePressure.out", "0 9.81 9.81 9.81 0 0 0 9.81 0\n");
+  CHECK_THAT(model.run_import().warnings.at(0),
+             Contains("2 nodes lie on another node") && Contains("unless the model ties them"));
+}
+
 TEST_CASE("an interrupted import leaves no history", "[importers]") {
   const SmallModel model;
   std::atomic<bool> stop = true;

@@ -8,6 +8,8 @@
 #include <cstring>
 #include <limits>
 
+#include <sys/stat.h>
+
 #include <catch2/catch.hpp>
 
 using namespace flowslide;
@@ -200,6 +202,16 @@ TEST_CASE("files that cannot be opened are told apart", "[importers]") {
   CHECK_THROWS_WITH(RecorderReader(folder.path("none.out")), Contains("no such file"));
   CHECK_THROWS_WITH(RecorderReader("~/none.out"), Contains("'~' is not expanded"));
   CHECK_THROWS_WITH(RecorderReader(folder.path("")), Contains("is a folder"));
+  CHECK_THROWS_WITH(RecorderReader("/dev/zero"), Contains("a pipe or a device"));
+  REQUIRE(::mkfifo(folder.path("pipe").c_str(), 0600) == 0);
+  CHECK_THROWS_AS(RecorderReader(folder.path("pipe")), FileError);
+}
+
+TEST_CASE("a compressed line without an end does not fill the memory", "[importers]") {
+  const TempFolder folder;
+  const std::string line(65u << 20u, '1');
+  CHECK_THROWS_WITH(read_all(folder.write_gzip("line.gz", "1 2\n" + line)),
+                    Contains("line.gz:2") && Contains("more than 64 MiB"));
 }
 
 TEST_CASE("a scan explains what is empty", "[importers]") {

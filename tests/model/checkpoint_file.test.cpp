@@ -3,6 +3,8 @@
 #include "core/check.hpp"
 #include "tests/model/scratch.hpp"
 
+#include <sys/stat.h>
+
 #include <catch2/catch.hpp>
 
 using namespace flowslide;
@@ -41,7 +43,7 @@ std::string refusal(const std::filesystem::path& path, std::uint64_t fields = 7)
 TEST_CASE("a checkpoint comes back to the bit") {
   const Scratch folder;
   write(folder / "c");
-  CHECK_FALSE(std::filesystem::exists(folder / "c.partial"));
+  CHECK(folder.entries() == 1);
   CheckpointReader in(folder / "c", 7);
   Pair pair;
   std::vector<double> array{9.0};
@@ -91,10 +93,27 @@ TEST_CASE("a checkpoint with other fields is refused") {
   CHECK_THAT(refusal(folder / "less"), Contains("ends within a field"));
 }
 
-TEST_CASE("a checkpoint that cannot be written leaves the former one") {
+TEST_CASE("a checkpoint that is not finished leaves the former one, and nothing else") {
   const Scratch folder;
   write(folder / "c");
-  std::filesystem::create_directory(folder / "c.partial");
-  CHECK_THROWS_AS(write(folder / "c"), FileError);
+  { CheckpointWriter(folder / "c", 9).value(1); }
   CHECK(refusal(folder / "c") == "(none)");
+  CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("what a killed writer left goes when the checkpoint is looked for") {
+  const Scratch folder;
+  write(folder / "c");
+  put_bytes(folder / ".c.0123456789abcdef.partial", "half");
+  CHECK(find_checkpoint(folder / "c"));
+  CHECK(folder.entries() == 1);
+  remove_checkpoint(folder / "c");
+  CHECK_FALSE(find_checkpoint(folder / "c"));
+}
+
+TEST_CASE("a checkpoint that is no file is refused at once") {
+  const Scratch folder;
+  REQUIRE(::mkfifo((folder / "c").c_str(), 0600) == 0);
+  CHECK(find_checkpoint(folder / "c"));
+  CHECK_THAT(refusal(folder / "c"), Contains("a pipe or a device"));
 }

@@ -82,7 +82,7 @@ TEST_CASE("a file that is no field file says so in words") {
   SECTION("a folder") {
     std::filesystem::remove(path);
     std::filesystem::create_directory(path);
-    refused("is not a file");
+    refused("is a folder");
   }
   SECTION("zero length") {
     put_bytes(path, "");
@@ -205,10 +205,7 @@ TEST_CASE("a full disk is a file error, and the program ends in order") {
       out.finish();
     } catch (const FileError& error) {
       const bool said = std::string(error.what()).find("File too large") != std::string::npos;
-      code = said && !std::filesystem::exists(folder / "s.h5") &&
-                     !std::filesystem::exists(folder / "s.h5.partial")
-                 ? 0
-                 : 2;
+      code = said && folder.entries() == 0 ? 0 : 2;
     }
     std::exit(code);  // runs the exit handlers, HDF5's among them
   }

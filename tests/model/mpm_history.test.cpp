@@ -77,6 +77,8 @@ TEST_CASE("a runout comes back from the file to the bit, in order of id") {
     for (int k = 0; k < 3; ++k) advance(out, k);
     CHECK_FALSE(std::filesystem::exists(folder / "m.h5"));
     out.finish();
+    CHECK(std::filesystem::exists(folder / "m.h5.partial"));
+    out.remove_parts();
   }
   CHECK_FALSE(std::filesystem::exists(folder / "m.h5.partial"));
   const MpmHistory h(folder / "m.h5");
@@ -127,7 +129,7 @@ TEST_CASE("a killed run that is resumed gives the bytes of an uninterrupted one"
   const std::filesystem::path frames = folder / "killed.h5.partial/frames.bin";
   std::filesystem::resize_file(frames, std::filesystem::file_size(frames) - 100);
   {
-    MpmHistoryWriter out(folder / "killed.h5", 3, 15);
+    MpmHistoryWriter out(folder / "killed.h5", start(), 3, 15);
     for (int k = 3; k < 6; ++k) advance(out, k);
     out.finish();
   }
@@ -140,10 +142,34 @@ TEST_CASE("a resume that asks for more than there is fails") {
     MpmHistoryWriter out(folder / "m.h5", start());
     advance(out, 0);
   }
-  CHECK_THROWS_AS(MpmHistoryWriter(folder / "m.h5", 2, 5), FileError);
-  CHECK_THROWS_WITH(MpmHistoryWriter(folder / "m.h5", 1, 6), Contains("samples.bin"));
-  CHECK_NOTHROW(MpmHistoryWriter(folder / "m.h5", 1, 5));
-  CHECK_THROWS_AS(MpmHistoryWriter(folder / "none.h5", 0, 0), FileError);
+  CHECK_THROWS_AS(MpmHistoryWriter(folder / "m.h5", start(), 2, 5), FileError);
+  CHECK_THROWS_WITH(MpmHistoryWriter(folder / "m.h5", start(), 1, 6), Contains("samples.bin"));
+  CHECK_NOTHROW(MpmHistoryWriter(folder / "m.h5", start(), 1, 5));
+  CHECK_THROWS_AS(MpmHistoryWriter(folder / "none.h5", start(), 1, 0), FileError);
+}
+
+TEST_CASE("a changed byte in the parts of an interrupted runout is noticed") {
+  const Scratch folder;
+  {
+    MpmHistoryWriter out(folder / "m.h5", start());
+    for (int k = 0; k < 3; ++k) advance(out, k);
+    out.flush();
+  }
+  const auto again = [&] { MpmHistoryWriter(folder / "m.h5", start(), 3, 15).finish(); };
+  for (const char* part : {"frames.bin", "samples.bin"}) {
+    const std::filesystem::path path = folder / (std::string("m.h5.partial/") + part);
+    const std::string good = bytes_of(path);
+    for (std::size_t i = 0; i < good.size(); i += 1 + good.size() / 199) {
+      std::string bad = good;
+      bad[i] = static_cast<char>(bad[i] ^ 0x20);
+      put_bytes(path, bad);
+      REQUIRE_THROWS_AS(again(), FileError);
+      REQUIRE_THROWS_WITH(again(), Contains(part) && Contains("delete the checkpoint"));
+    }
+    REQUIRE_FALSE(std::filesystem::exists(folder / "m.h5"));
+    put_bytes(path, good);
+  }
+  CHECK_NOTHROW(again());  // control
 }
 
 TEST_CASE("a run without output is a file without frames") {

@@ -38,7 +38,9 @@ void write(const std::filesystem::path& path, int from, int to, bool finish) {
                              static_cast<std::size_t>(from));
   for (int i = from; i < to; ++i) out.append(frame_at(0.1 * (i + 1)));
   out.flush();
-  if (finish) out.finish();
+  if (!finish) return;
+  out.finish();
+  out.remove_parts();
 }
 
 }  // namespace
@@ -59,6 +61,22 @@ TEST_CASE("a history written in parts has the bytes of one written at once") {
   CHECK_FALSE(std::filesystem::exists(folder / "parts.h5.partial"));
   write(folder / "other.h5", 0, 4, true);  // control
   CHECK(bytes_of(folder / "other.h5") != bytes_of(folder / "once.h5"));
+}
+
+TEST_CASE("a changed byte in the frames of an interrupted shaking is noticed") {
+  const Scratch folder;
+  write(folder / "h.h5", 0, 3, false);
+  const std::filesystem::path path = folder / "h.h5.partial/frames.bin";
+  const std::string good = bytes_of(path);
+  for (std::size_t i = 0; i < good.size(); i += 7) {
+    std::string bad = good;
+    bad[i] = static_cast<char>(bad[i] ^ 0x20);
+    put_bytes(path, bad);
+    REQUIRE_THROWS_WITH(write(folder / "h.h5", 3, 5, true),
+                        Contains("frames.bin") && Contains("delete the checkpoint"));
+  }
+  put_bytes(path, good);
+  CHECK_NOTHROW(write(folder / "h.h5", 3, 5, true));  // control
 }
 
 TEST_CASE("a history that lost frames is not continued") {

@@ -4,6 +4,10 @@
 #include "motion/write_motion.hpp"
 #include "signals.hpp"
 
+#include "tests/support/limited_files.hpp"
+
+#include <sys/stat.h>
+
 #include <catch2/catch.hpp>
 
 using namespace flowslide;
@@ -91,6 +95,18 @@ TEST_CASE("a written motion reads back to the same numbers", "[motion]") {
   const Record back = read_record(folder.path("m.csv"), {.unit = "m/s2"});
   CHECK(back.motion.acceleration == motion.acceleration);
   CHECK(back.motion.dt == Approx(0.005).epsilon(1e-14));
-  CHECK_FALSE(std::filesystem::exists(folder.path("m.csv.partial")));
   CHECK_THROWS_AS(write_motion(folder.path("none/m.csv"), motion), FileError);
+}
+
+TEST_CASE("a motion on a full disk is whole or not there", "[motion]") {
+  const GroundMotion motion = sampled(0.005, 1.0, [](double t) { return std::sin(40.0 * t) / 3.0; });
+  test::check_limited_files(
+      [&](const std::filesystem::path& folder) { write_motion(folder / "m.csv", motion); }, 20);
+}
+
+TEST_CASE("a record that is no file is refused at once", "[motion]") {
+  const MotionFolder folder;
+  REQUIRE(::mkfifo(folder.path("pipe").c_str(), 0600) == 0);
+  CHECK_THROWS_AS(read_record(folder.path("pipe"), {}), FileError);
+  CHECK_THROWS_AS(read_record("/dev/zero", {}), FileError);
 }

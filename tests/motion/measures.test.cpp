@@ -110,4 +110,7 @@ TEST_CASE("what is no motion is not measured", "[motion]") {
                            GroundMotion{.dt = 0.01, .acceleration = {0.0, 0.0}, .origin = "m"},
                            GroundMotion{.dt = 0.01, .acceleration = {1.0, nan}, .origin = "m"}})
     CHECK_THROWS_AS(measure(bad), InputError);
+  // Picoseconds: the transform would take 300 TB.
+  const GroundMotion fast{.dt = 1e-12, .acceleration = {0.0, 1.0, 0.0}, .origin = "m"};
+  CHECK_THROWS_WITH(measure(fast), Catch::Contains("is its unit right?"));
 }

@@ -1,4 +1,4 @@
-#include "mpm/basis.hpp"
+#include "mpm/kernels/basis.hpp"
 
 #include <random>
 

@@ -1,4 +1,4 @@
-#include "mpm/extrude.hpp"
+#include "mpm/run/extrude.hpp"
 
 #include "tests/mpm/scene.hpp"
 #include "tests/support/scratch.hpp"

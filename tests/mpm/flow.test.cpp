@@ -1,4 +1,4 @@
-#include "mpm/checkpoint.hpp"
+#include "mpm/solver/checkpoint.hpp"
 #include "tests/mpm/scene.hpp"
 #include "tests/support/scratch.hpp"
 

@@ -1,10 +1,12 @@
-#include "mpm/height_field.hpp"
+#include "mpm/walls/height_field.hpp"
 
 #include "tests/mpm/scene.hpp"
 #include "tests/mpm/solid.hpp"
 #include "tests/support/scratch.hpp"
 
 #include <fstream>
+
+#include <sys/stat.h>
 
 #include <catch2/catch.hpp>
 
@@ -72,7 +74,7 @@ TEST_CASE("A bad grid is refused with its line", "[mpm]") {
   CHECK_THAT(error("5 6 7 8", "5 6 7 8\n5 6 7 8"), Contains("valley.asc:10: more rows"));
   CHECK_THAT(error("7 8", "nan 8"), Contains("valley.asc:8: 'nan' is not a finite number"));
   CHECK_THAT(error("1 2 3", "nan 2 3"), Contains("valley.asc:7: 'nan' is not"));
-  CHECK_THAT(error("6 7", "6 7,5"), Contains("valley.asc:8: '7,5' is not"));
+  CHECK_THAT(error("6 7", "6 7,5"), Contains("valley.asc:8: '7,5' has a decimal comma"));
   CHECK_THAT(error("6 7", "6 1e999"), Contains("valley.asc:8"));
   CHECK_THAT(error("cellsize 10", "dx 10"), Contains("valley.asc:5: 'dx' is no line"));
   CHECK_THAT(error("cellsize 10\n", ""), Contains("no cellsize"));
@@ -83,6 +85,34 @@ TEST_CASE("A bad grid is refused with its line", "[mpm]") {
   CHECK_THAT(input_error([] { read_text("ncols 4\n"); }), Contains("no nrows"));
   CHECK_THAT(input_error([] { read_text(""); }), Contains("no ncols"));
   CHECK_THROWS_AS(read_height_field("/no/such.asc", {}), FileError);
+}
+
+TEST_CASE("Missing heights are missing whatever the header says of them", "[mpm]") {
+  const HeightField undeclared = read_text(replaced(kGrid, "NODATA_value -9999\n", ""));
+  CHECK(!undeclared.complete);  // the format's own mark
+  CHECK(std::isnan(undeclared.at(130.0, 57.0)));
+  const auto error = [](const std::string& from, const std::string& to) {
+    return input_error([&] { read_text(replaced(kGrid, from, to)); });
+  };
+  CHECK_THAT(error("NODATA_value -9999", "NODATA_value 0"),
+             Contains("valley.asc:9: column 4: a height of -9999 m"));
+  for (const char* mark : {"-32768", "-3.4e38", "32767", "1e20"})
+    CHECK_THAT(error("7 8", std::string(mark) + " 8"),
+               Contains("valley.asc:8: column 3") && Contains("write 'nodata_value"));
+  CHECK_NOTHROW(read_text(replaced(kGrid, "7 8", "-430 8850")));  // the Dead Sea and Everest
+}
+
+TEST_CASE("A grid is not larger than its file, and marks of editors are no heights", "[mpm]") {
+  const auto error = [](const std::string& from, const std::string& to) {
+    return input_error([&] { read_text(replaced(kGrid, from, to)); });
+  };
+  CHECK_THAT(error("ncols 4", "ncols 100000"), Contains("100000 x 3 heights, but the file has"));
+  CHECK_THAT(error("ncols 4", "ncols 1e9"), Contains("ncols"));
+  CHECK(read_text(std::string("\xEF\xBB\xBF") + kGrid).columns == 4);
+  CHECK_THAT(error("6 7",
+                   "6\xC2\xA0"
+                   "7"),
+             Contains("non-breaking space"));
 }
 
 TEST_CASE("Soil must not stand or come where the terrain has no height", "[mpm]") {
@@ -210,4 +240,18 @@ TEST_CASE("A lump of soil swings in a bowl, or comes to rest in it", "[mpm]") {
   // tan of the steepest slope under the lump is 0.08: it sticks at 0.15.
   CHECK(middle_after(0.15, 0.25 * period, speed) == Approx(start).margin(0.01));
   CHECK(std::abs(speed) < 0.01);
+}
+
+TEST_CASE("A terrain that is no file, or that cannot be in its file, is refused at once", "[mpm]") {
+  const Scratch folder;
+  REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  CHECK_THROWS_AS(read_height_field(folder / "pipe", {}), FileError);
+  CHECK_THROWS_AS(read_height_field("/dev/zero", {}), FileError);
+  const auto error = [&](const std::string& text) {
+    return input_error([&] { read_height_field(folder.write("valley.asc", text), {}); });
+  };
+  CHECK_THAT(error("ncols 100000\nnrows 100000\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3\n"),
+             Contains("too short for so many"));
+  CHECK_THAT(error("ncols 2\n" + std::string(5u << 20u, '1')),
+             Contains("valley.asc:2") && Contains("more than 4 MiB"));
 }

@@ -1,8 +1,8 @@
 #pragma once
 #include "core/conventions.hpp"
-#include "mpm/balance.hpp"
-#include "mpm/flow.hpp"
-#include "mpm/load.hpp"
+#include "mpm/solver/balance.hpp"
+#include "mpm/run/flow.hpp"
+#include "mpm/run/load.hpp"
 
 #include <random>
 #include <string>

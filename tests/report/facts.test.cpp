@@ -132,6 +132,8 @@ TEST_CASE("JSON has units in its keys and null for what is unset") {
   CHECK(json["energy_error"] == 0.01);
   CHECK(json["time_at_rest_s"].is_null());
   CHECK(json["materials"].size() == 4);
+  // Without a toe there is no runout, not one of 0.
+  CHECK(nlohmann::json::parse(to_json(ReportFacts{}))["runout_m"].is_null());
 }
 
 TEST_CASE("Points inside a concave outline") {

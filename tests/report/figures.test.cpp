@@ -1,10 +1,13 @@
 #include "report/figures.hpp"
 
+#include "core/check.hpp"
 #include "core/hash.hpp"
 #include "report/plot_data.hpp"
 #include "report/tables.hpp"
 #include "tests/report/dam_case.hpp"
 #include "tests/support/scratch.hpp"
+
+#include <cstdlib>
 
 #include <catch2/catch.hpp>
 
@@ -47,7 +50,7 @@ TEST_CASE("Figures are drawn at page width and small") {
   const Scratch scratch;
   write_case(scratch, true);
   const std::filesystem::path figures = scratch / "report/figures";
-  const DrawnFigures drawn = draw_figures(scratch / "report", std::nullopt);
+  const DrawnFigures drawn = draw_figures(scratch / "report", std::nullopt, {});
   INFO(drawn.problem);
   REQUIRE(drawn.problem.empty());
   REQUIRE(drawn.figures.size() == kFigures.size());
@@ -69,7 +72,8 @@ TEST_CASE("The same data give the same bytes") {
   const std::filesystem::path figures = scratch / "report/figures";
   std::vector<std::string> sums;
   for (int round = 0; round < 2; ++round) {
-    REQUIRE(draw_figures(scratch / "report", std::nullopt, {"final_materials"}).problem.empty());
+    REQUIRE(
+        draw_figures(scratch / "report", std::nullopt, {}, {"final_materials"}).problem.empty());
     for (const char* file : {"final_materials.svg", "final_materials.png"})
       sums.push_back(sha256_file(figures / file));
   }
@@ -81,7 +85,7 @@ TEST_CASE("A static run has no history of the zone to draw") {
   const Scratch scratch;
   write_case(scratch, false);
   const DrawnFigures drawn =
-      draw_figures(scratch / "report", std::nullopt, {"section_before", "zone_history"});
+      draw_figures(scratch / "report", std::nullopt, {}, {"section_before", "zone_history"});
   INFO(drawn.problem);
   REQUIRE(drawn.figures.size() == 1);
   CHECK(drawn.figures[0].name == "section_before");
@@ -92,7 +96,7 @@ TEST_CASE("Without Matplotlib the message names the package and old figures go")
   scratch.write("report/figures/flow_history.png", "old");
   std::filesystem::create_directories(scratch / "report/data");
   for (const char* python : {"/bin/false", "/nowhere/python3"}) {
-    const DrawnFigures drawn = draw_figures(scratch / "report", python);
+    const DrawnFigures drawn = draw_figures(scratch / "report", python, {});
     CHECK(drawn.figures.empty());
     CHECK(drawn.problem.find("python3-matplotlib") != std::string::npos);
     CHECK(drawn.problem.find(python) != std::string::npos);
@@ -103,7 +107,73 @@ TEST_CASE("Without Matplotlib the message names the package and old figures go")
 TEST_CASE("A script that fails is reported with its last words") {
   const Scratch scratch;
   std::filesystem::create_directories(scratch / "report/data");
-  const DrawnFigures drawn = draw_figures(scratch / "report", std::nullopt);
+  const DrawnFigures drawn = draw_figures(scratch / "report", std::nullopt, {});
   CHECK(drawn.figures.empty());
   CHECK(drawn.problem.find("plot.json") != std::string::npos);
+}
+
+TEST_CASE("Nothing that lies in a folder is run, nor what the environment names") {
+  const Scratch scratch;
+  write_case(scratch, true);
+  const std::string trap =
+      "open('" + (scratch / "trapped").string() + "', 'w').close()\nraise SystemExit(3)\n";
+  for (const char* file : {"plot.py", "plot_style.py", "data/plot.py", "data/numpy.py", "numpy.py",
+                           "sitecustomize.py", "usercustomize.py", "data/matplotlib.py"})
+    scratch.write("report/" + std::string(file), trap);
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(scratch / "report");
+  ::setenv("PYTHONPATH", (scratch / "report").c_str(), 1);
+  ::setenv("PYTHONSTARTUP", (scratch / "report/plot.py").c_str(), 1);
+  const DrawnFigures drawn =
+      draw_figures(scratch / "report", std::nullopt, {}, {"final_materials"});
+  ::unsetenv("PYTHONPATH");
+  ::unsetenv("PYTHONSTARTUP");
+  std::filesystem::current_path(before);
+  INFO(drawn.problem);
+  CHECK(drawn.figures.size() == 1);
+  CHECK_FALSE(std::filesystem::exists(scratch / "trapped"));
+}
+
+TEST_CASE("The scripts draw beside themselves when a user runs them") {
+  const Scratch scratch;
+  write_case(scratch, false);
+  std::filesystem::create_directories(scratch / "plot");
+  const auto files = write_plot_scripts(scratch / "plot");
+  REQUIRE(files.size() == 3);
+  CHECK(files[0] == "plot/plot.py");
+  // As in the guide, by the interpreter that draw_figures() finds.
+  const std::string command = "cd '" + scratch.path().string() +
+                              "' && { python3 plot/plot.py section_before || "
+                              "/usr/bin/python3 plot/plot.py section_before; } >log 2>&1";
+  const int status = std::system(command.c_str());
+  INFO(read_text_file(scratch / "log"));
+  CHECK(status == 0);
+  CHECK(std::filesystem::exists(scratch / "plot/figures/section_before.svg"));
+  CHECK_FALSE(std::filesystem::exists(scratch / "report/figures"));
+}
+
+TEST_CASE("An interpreter that sleeps is ended") {
+  const Scratch scratch;
+  write_case(scratch, false);
+  const auto python = scratch.write("python",
+                                    "#!/bin/sh\ncase \"$*\" in *find_spec*) exit 0;; esac\n"
+                                    "exec sleep 1000\n");
+  std::filesystem::permissions(python, std::filesystem::perms::owner_all);
+  const DrawnFigures drawn =
+      draw_figures(scratch / "report", python.string(), {.progress = {}, .seconds = 0.2});
+  CHECK(drawn.figures.empty());
+  CHECK(drawn.problem.find("had not ended") != std::string::npos);
+}
+
+TEST_CASE("A disk that is full is no matter of the interpreter") {
+  const Scratch scratch;
+  write_case(scratch, false);
+  const auto python =
+      scratch.write("python",
+                    "#!/bin/sh\ncase \"$*\" in *find_spec*) exit 0;; esac\n"
+                    "echo 'OSError: [Errno 28] No space left on device'\nexit 74\n");
+  std::filesystem::permissions(python, std::filesystem::perms::owner_all);
+  CHECK_THROWS_WITH(draw_figures(scratch / "report", python.string(), {}),
+                    Catch::Contains("No space left"));
+  CHECK_THROWS_AS(draw_figures(scratch / "report", python.string(), {}), FileError);
 }

@@ -25,7 +25,8 @@ struct Case {
     dam_case::write_history(scratch / "history.h5", true);
     scratch.write("audit.json", kAudit);
   }
-  [[nodiscard]] ReportFacts write(const ReportConfig& config) const {
+  [[nodiscard]] ReportFacts write(const ReportConfig& config,
+                                  const std::vector<std::string>& warnings = {}) const {
     const FemHistory history(scratch / "history.h5");
     const MpmHistory flow(scratch / "mpm.h5");
     return write_report({.history = history,
@@ -33,7 +34,8 @@ struct Case {
                          .particles = particles,
                          .audit = scratch / "audit.json",
                          .flow = flow,
-                         .provenance = {{"workflow", "dam | case.yaml"}}},
+                         .provenance = {{"workflow", "dam | case.yaml"}},
+                         .warnings = warnings},
                         config, scratch / "report");
   }
   [[nodiscard]] std::string text(const std::string& name) const {
@@ -84,6 +86,21 @@ TEST_CASE("A run stopped before rest and missing figures are said on top") {
   CHECK_FALSE(std::filesystem::exists(c.scratch / "report/flow.pvd"));
 }
 
+TEST_CASE(
+    "Warnings of the stages before stand first, and a runout of 0 says how far from the toe") {
+  ReportConfig config;
+  config.figures = config.paraview = false;
+  config.toe = 500.0;
+  const Case c;
+  const ReportFacts facts = c.write(config, {"shake: stress.out ends at 4 s."});
+  const std::string report = c.text("report.md");
+  CHECK(contains(report,
+                 "## Read this before using the numbers\n\n- shake: stress.out ends at 4 s."));
+  CHECK(facts.warnings.empty());  // its own
+  CHECK(nlohmann::json::parse(c.text("facts.json"))["warnings"].size() == 1);
+  CHECK(contains(report, fmt::format("{:.1f} m short of the toe", 500.0 - facts.front)));
+}
+
 TEST_CASE("A section that holds is reported as such") {
   ReportConfig config;
   config.figures = config.paraview = false;
@@ -117,4 +134,8 @@ TEST_CASE("An audit becomes tables whatever it holds") {
         "| mass\\|all | 1.25 | - |  |\n| momentum_x |  |  | 3e-13 |\n\n"
         "| quantity | value |\n|---|---|\n"
         "| passed | yes |\n| counts, points | 7 |\n| notes | none |\n\n");
+  // Another program's, or a trap: tables are made by recursion.
+  const std::string deep = "{\"a\":" + std::string(100000, '[') + std::string(100000, ']') + "}";
+  CHECK_THROWS_WITH(audit_tables(scratch.write("audit.json", deep)),
+                    Catch::Contains("nested more than"));
 }

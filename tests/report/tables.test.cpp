@@ -3,6 +3,7 @@
 #include "core/check.hpp"
 #include "report/npy.hpp"
 #include "report/section_lines.hpp"
+#include "tests/support/limited_files.hpp"
 #include "tests/support/scratch.hpp"
 
 #include <catch2/catch.hpp>
@@ -91,4 +92,11 @@ TEST_CASE("Lines of the section: outline, material limits and water table") {
     CHECK(water.values[4 * r + 1] == Approx(1.5));
     CHECK(water.values[4 * r + 3] == Approx(1.5));
   }
+}
+
+TEST_CASE("A table on a full disk is whole or not there") {
+  Table table{.columns = 2, .values = {}};
+  for (int i = 0; i < 500; ++i) table.add({double(i), 1.0 / (1.0 + i)});
+  test::check_limited_files(
+      [&](const std::filesystem::path& folder) { write_npy(folder / "t.npy", table); }, 20);
 }

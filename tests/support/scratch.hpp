@@ -26,6 +26,11 @@ class Scratch {
     return path_ / name;
   }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// Files and folders in it, whatever their names.
+  [[nodiscard]] std::size_t entries() const {
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path_),
+                                                  std::filesystem::directory_iterator()));
+  }
   std::filesystem::path write(const std::string& name, const std::string& text) const {
     std::filesystem::create_directories((path_ / name).parent_path());
     std::ofstream(path_ / name) << text;

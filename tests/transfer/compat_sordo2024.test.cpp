@@ -1,4 +1,4 @@
-#include "transfer/compat_sordo2024.hpp"
+#include "transfer/sordo2024/compat_sordo2024.hpp"
 
 #include "constitutive/materials.hpp"
 #include "core/check.hpp"

@@ -1,4 +1,4 @@
-#include "transfer/depth.hpp"
+#include "transfer/zone/depth.hpp"
 
 #include <catch2/catch.hpp>
 

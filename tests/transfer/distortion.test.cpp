@@ -1,4 +1,4 @@
-#include "transfer/distortion.hpp"
+#include "transfer/zone/distortion.hpp"
 
 #include "tests/transfer/zone_grid.hpp"
 

@@ -1,4 +1,4 @@
-#include "transfer/energy.hpp"
+#include "transfer/zone/energy.hpp"
 
 #include "core/check.hpp"
 #include "tests/transfer/zone_grid.hpp"

@@ -1,5 +1,5 @@
 #include "importers/opensees.hpp"
-#include "transfer/map_state.hpp"
+#include "transfer/map/map_state.hpp"
 #include "tests/support/paths.hpp"
 
 #include <cmath>

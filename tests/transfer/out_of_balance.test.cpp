@@ -1,4 +1,4 @@
-#include "transfer/out_of_balance.hpp"
+#include "transfer/audit/out_of_balance.hpp"
 
 #include "core/conventions.hpp"
 

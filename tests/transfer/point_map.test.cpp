@@ -1,4 +1,4 @@
-#include "transfer/point_map.hpp"
+#include "transfer/map/point_map.hpp"
 
 #include "distorted_mesh.hpp"
 

@@ -1,4 +1,4 @@
-#include "transfer/polygon.hpp"
+#include "transfer/seeding/polygon.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "transfer/radial.hpp"
+#include "transfer/sordo2024/radial.hpp"
 
 #include "core/check.hpp"
 

@@ -1,4 +1,4 @@
-#include "transfer/seed.hpp"
+#include "transfer/seeding/seed.hpp"
 
 #include "core/check.hpp"
 #include "distorted_mesh.hpp"

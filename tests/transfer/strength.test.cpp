@@ -1,4 +1,4 @@
-#include "transfer/strength.hpp"
+#include "transfer/zone/strength.hpp"
 
 #include "core/check.hpp"
 

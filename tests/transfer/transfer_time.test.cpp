@@ -1,7 +1,7 @@
-#include "transfer/transfer_time.hpp"
+#include "transfer/zone/transfer_time.hpp"
 
 #include "core/check.hpp"
-#include "transfer/stop_config.hpp"
+#include "transfer/zone/stop_config.hpp"
 
 #include <algorithm>
 #include <cmath>

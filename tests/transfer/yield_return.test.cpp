@@ -1,4 +1,4 @@
-#include "transfer/yield_return.hpp"
+#include "transfer/map/yield_return.hpp"
 
 #include <cmath>
 

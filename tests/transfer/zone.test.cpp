@@ -1,4 +1,4 @@
-#include "transfer/zone.hpp"
+#include "transfer/zone/zone.hpp"
 
 #include "core/check.hpp"
 #include "tests/transfer/zone_grid.hpp"
@@ -241,4 +241,15 @@ TEST_CASE("settings that do not fit the mesh or each other are refused", "[trans
                     Catch::Contains("pond_surface"));
   CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.transfer = {.when = TransferWhen::at, .at = 7.0}; }),
                     Catch::Contains("outside the record"));
+}
+
+TEST_CASE("Without windows the depth is that of the whole liquefiable soil", "[transfer]") {
+  const Column column({7.0, 4.0, 6.0});
+  ZoneConfig config = column_config();
+  config.windows.clear();
+  const LiquefactionZone zone = column.find(config);
+  CHECK(zone.window_names == std::vector<std::string>{"all"});
+  const LiquefactionZone two = column.find(column_config());
+  CHECK(zone.window_depth_max.at(0) == std::max(two.window_depth_max[0], two.window_depth_max[1]));
+  CHECK(zone.window_depth_max.at(0) > 0.0);
 }

@@ -1,6 +1,6 @@
 #include "core/check.hpp"
 #include "importers/opensees.hpp"
-#include "transfer/zone.hpp"
+#include "transfer/zone/zone.hpp"
 #include "tests/support/paths.hpp"
 
 #include <algorithm>
@@ -45,6 +45,7 @@ std::size_t sample_near(const ZoneHistory& h, double t) {
 TEST_CASE("the dam of the fixture liquefies as its README says", "[transfer]") {
   const std::filesystem::path path = import_dam();
   ZoneConfig c;
+  c.windows = {{"crest", {-40.0, -20.0}}, {"pond", {-70.0, -50.0}}};
   c.liquefiable = {168};
   c.pond_surface = 30.0;
   c.box.left = -340.0;

@@ -1,4 +1,4 @@
-#include "transfer/zone_extent.hpp"
+#include "transfer/zone/zone_extent.hpp"
 
 #include "core/check.hpp"
 #include "tests/transfer/zone_grid.hpp"

@@ -1,4 +1,4 @@
-#include "transfer/zone_r_u.hpp"
+#include "transfer/zone/zone_r_u.hpp"
 
 #include "core/check.hpp"
 #include "tests/transfer/zone_grid.hpp"

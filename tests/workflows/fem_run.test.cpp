@@ -1,7 +1,7 @@
 #include "model/history.hpp"
 #include "model/zone.hpp"
 #include "tests/support/scratch.hpp"
-#include "workflows/engine/run_folder.hpp"
+#include "workflows/engine/result_folder.hpp"
 #include "workflows/engine/runner.hpp"
 #include "workflows/stages/stage_list.hpp"
 

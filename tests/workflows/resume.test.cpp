@@ -1,10 +1,11 @@
 #include "core/check.hpp"
 #include "tests/support/scratch.hpp"
 #include "tests/workflows/sample_stages.hpp"
-#include "workflows/engine/run_folder.hpp"
+#include "workflows/engine/result_folder.hpp"
 #include "workflows/engine/runner.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -67,7 +68,8 @@ TEST_CASE("a run that is killed again and again ends with the bits of one that i
   int kills = 0;
   // Sessions of growing length, not multiples of a step: kills fall between any two writes, and
   // on a slow machine one session gets through at last.
-  while (!run_and_kill(workflow, scratch / "killed", 2000 + 730 * kills)) {
+  while (!run_and_kill(workflow, scratch / "killed",
+                       static_cast<int>(2000.0 * std::pow(1.02, kills)))) {
     CHECK_FALSE(std::filesystem::exists(scratch / "killed/result.json"));
     REQUIRE(++kills < 400);
   }

@@ -1,8 +1,9 @@
 #include "workflows/engine/runner.hpp"
 
 #include "core/check.hpp"
-#include "tests/support/scratch.hpp"
-#include "tests/workflows/sample_stages.hpp"
+#include "core/hash.hpp"
+#include "tests/workflows/run_bench.hpp"
+#include "workflows/engine/lock.hpp"
 #include "workflows/engine/run_folder.hpp"
 
 #include <catch2/catch.hpp>
@@ -14,38 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-/// A run folder and a workflow of three stages: one, two -> sum.
-struct Bench {
-  Scratch scratch;
-  std::filesystem::path out = scratch / "out";
-  std::vector<StageType> types = sample::stages();
-  std::map<std::string, std::string> why;  ///< of the last run, by stage
-  std::vector<std::string> ran;
-
-  Workflow load(const std::vector<std::string>& set = {}) {
-    scratch.write("note.txt", note);
-    return load_workflow(
-        scratch.write("case.yaml",
-                      "schema: 1\nname: demo\nstages:\n"
-                      "  one: {uses: sample.number, with: {value: 1, note: note.txt}}\n"
-                      "  two: {uses: sample.number, with: {value: 2}}\n"
-                      "  sum: {uses: sample.sum, in: {a: one.number, b: two.number}}\n"),
-        set, types);
-  }
-  void run(const std::vector<std::string>& set = {}) {
-    why.clear();
-    ran.clear();
-    RunEvents events;
-    events.decided = [&](std::string_view stage, const Decision& d) {
-      why[std::string(stage)] = d.why;
-      if (d.action != Action::reuse) ran.emplace_back(stage);
-    };
-    run_workflow(load(set), {.folder = out}, events);
-  }
-  json result() { return json::parse(read_text_file(out / "result.json")); }
-  std::string note = "first note";
-};
-
+using Bench = sample::RunBench;
 using Names = std::vector<std::string>;
 
 }  // namespace
@@ -99,13 +69,11 @@ TEST_CASE("only what is not up to date runs, and says why", "[workflows]") {
 TEST_CASE("a damaged or missing result is made anew", "[workflows]") {
   Bench bench;
   bench.run();
-  const Workflow workflow = bench.load();
-  const auto plan = plan_workflow(workflow, bench.out);
-  const auto file = result_folder(bench.out, "sum", plan[2].decision.key) / "sum.txt";
+  const auto file = bench.folder(2) / "sum.txt";
   SECTION("missing") {
     std::filesystem::remove(file);
     bench.run();
-    CHECK_THAT(bench.why["sum"], Contains("missing sum.txt"));
+    CHECK_THAT(bench.why["sum"], Contains("sum.txt is missing"));
   }
   SECTION("another size") {
     std::ofstream(file) << "33333\n";
@@ -200,4 +168,104 @@ TEST_CASE("a run folder belongs to one process and is not taken from others", "[
   CHECK_THROWS_WITH(RunFolder(foreign.path()), Contains("no run of flowslide"));
   foreign.write("file", "x");
   CHECK_THROWS_AS(RunFolder(foreign / "file"), FileError);
+}
+
+TEST_CASE("a stage that is asked for runs again, and says so", "[workflows]") {
+  Bench bench;
+  bench.run();
+  bench.redo = {"two"};
+  bench.run();
+  CHECK(bench.ran == Names{"two"});
+  CHECK(bench.why["two"] == "asked for");
+  CHECK(bench.result()["sum"] == 3.0);
+}
+
+TEST_CASE("a result of another build is used, and the build is named", "[workflows]") {
+  Bench bench;
+  bench.run();
+  const auto folder = bench.folder(1);
+  auto record = *read_record(folder).record;
+  record.program = "flowslide 0.0.1 (abc1234)";
+  std::erase_if(record.files, [](const FileRecord& f) { return f.name == kFactsFile; });
+  write_record(folder, record);
+  bench.run();
+  CHECK(bench.ran.empty());
+  CHECK(bench.why["two"] == "up to date (made by 0.0.1 abc1234)");
+  CHECK(bench.why["one"] == "up to date");
+}
+
+TEST_CASE("what is refused takes nothing away", "[workflows]") {
+  Bench bench;
+  bench.run();
+  const auto before = sample::contents(bench.out);
+  const std::string result = read_text_file(bench.out / "result.json");
+  CHECK_THROWS_AS(bench.run({"stages.sum.with.factr=2"}), InputError);
+  CHECK_THROWS_AS(bench.run({"stages.one.with.value=13"}), InputError);
+  CHECK_THROWS_AS(bench.run({"stages.one.with.note=nowhere.txt"}), FileError);
+  {
+    const RunFolder holder(bench.out);
+    CHECK_THROWS_AS(bench.run({"stages.sum.with.factor=2"}), FileError);
+  }
+  CHECK(sample::contents(bench.out) == before);
+  CHECK(read_text_file(bench.out / "result.json") == result);
+}
+
+TEST_CASE("a result stays until a stage has to run, and goes with a word", "[workflows]") {
+  Bench bench;
+  bench.run();
+  CHECK(bench.notices.empty());
+  bool there = true;
+  bench.before_stage = [&](std::string_view) {
+    there = std::filesystem::exists(bench.out / "result.json");
+  };
+  CHECK_THROWS_AS(bench.run({"stages.sum.with.fail=true"}), Error);
+  CHECK(there);  // the decision is told before anything goes
+  CHECK_FALSE(std::filesystem::exists(bench.out / "result.json"));
+  CHECK_THAT(bench.told(), Contains("result.json of the earlier run goes"));
+  bench.run();
+  CHECK(bench.ran.empty());
+  CHECK(bench.result()["sum"] == 3.0);
+}
+
+TEST_CASE("a script that the user has changed stays", "[workflows]") {
+  Bench bench;
+  bench.run();
+  const auto pen = bench.out / "style/pen.txt";
+  CHECK(read_text_file(pen) == "blue\n");
+  SECTION("edited: it is kept, whatever runs") {
+    bench.scratch.write("out/style/pen.txt", "red\n");
+    bench.scratch.write("out/style/own.txt", "mine\n");
+    bench.run();
+    CHECK(bench.ran.empty());
+    CHECK_THAT(bench.told(), Contains("style/pen.txt was changed and is kept"));
+    bench.run({"stages.sum.with.factor=2"});
+    CHECK(read_text_file(pen) == "red\n");
+    CHECK(read_text_file(bench.out / "style/own.txt") == "mine\n");
+    std::filesystem::remove(pen);
+    bench.run();
+    CHECK(read_text_file(pen) == "blue\n");
+    CHECK(bench.notices.empty());
+  }
+  SECTION("not edited: a new version of the program brings its own") {
+    auto lock = *read_lock(bench.out).lock;
+    bench.scratch.write("out/style/pen.txt", "of an earlier version\n");
+    lock.given["style/pen.txt"] = sha256("of an earlier version\n");
+    write_lock(bench.out, lock);
+    bench.run();
+    CHECK(bench.notices.empty());
+    CHECK(read_text_file(pen) == "blue\n");
+  }
+}
+
+TEST_CASE("a program that a workflow names needs the user's word", "[workflows]") {
+  Bench bench;
+  Workflow workflow = bench.load();
+  workflow.stages[2].prepared.programs = {"/opt/python"};
+  CHECK_THROWS_WITH(run_workflow(workflow, {.folder = bench.out}, {}),
+                    Contains("--allow-python '/opt/python'"));
+  CHECK_THROWS_AS(run_workflow(workflow, {.folder = bench.out, .allowed_programs = {"/opt"}}, {}),
+                  InputError);
+  CHECK_FALSE(std::filesystem::exists(bench.out));
+  run_workflow(workflow, {.folder = bench.out, .allowed_programs = {"/opt/python"}}, {});
+  CHECK(std::filesystem::exists(bench.out / "result.json"));
 }

@@ -91,7 +91,11 @@ struct SumStage {
     std::filesystem::create_directory(out.folder.path);
     std::ofstream(out.folder.path / "1.vtu") << sum;
     std::ofstream(context.folder / "sum.pvd") << R"(<DataSet file="view/1.vtu"/>)";
-    return {.facts = R"({"sum": )" + std::to_string(sum) + "}", .publish = {"sum.pvd", "view"}};
+    std::filesystem::create_directory(context.folder / "style");
+    std::ofstream(context.folder / "style/pen.txt") << "blue\n";
+    return {.facts = R"({"sum": )" + std::to_string(sum) + "}",
+            .publish = {"sum.pvd", "view"},
+            .give = {"style/pen.txt"}};
   }
 };
 

@@ -1,6 +1,8 @@
 #include "workflows/engine/cache.hpp"
 
-#include "workflows/engine/run_folder.hpp"
+#include "workflows/engine/program_version.hpp"
+#include "workflows/engine/result_folder.hpp"
+#include "workflows/engine/session.hpp"
 
 #include <algorithm>
 #include <sstream>
@@ -62,6 +64,42 @@ std::string explain(const WorkflowStage& stage, const std::map<std::string, std:
   return "result is missing";
 }
 
+/// Does the record belong to this stage and name all that the stage puts out?
+bool fits(const StageRecord& record, const WorkflowStage& stage, const std::string& key) {
+  return record.stage == stage.name && record.key == key &&
+         std::all_of(stage.type.outputs.begin(), stage.type.outputs.end(), [&](const Port& port) {
+           return std::any_of(record.outputs.begin(), record.outputs.end(),
+                              [&](const OutputRecord& o) {
+                                return o.port == port.name && o.file == port.file &&
+                                       o.sha256 == content_hash(record.files, o.file);
+                              });
+         });
+}
+
+/// "flowslide 0.1.0 (f6e9070)" -> "0.1.0 f6e9070"
+std::string short_version(std::string program) {
+  std::erase_if(program, [](char c) { return c == '(' || c == ')'; });
+  const std::size_t space = program.find(' ');
+  return space == std::string::npos ? program : program.substr(space + 1);
+}
+
+/// Looks at what lies under the name of the result; fills record and files, or problems.
+void look_at_result(Decision& decision, const fs::path& folder, const WorkflowStage& stage,
+                    const Between& between) {
+  RecordRead read = read_record(folder);
+  if (read.record && !fits(*read.record, stage, decision.key))
+    read = {{}, fmt::format("{} is that of another result", kRecordFile)};
+  if (!read.record) {
+    if (!read.problem.empty()) decision.problems.push_back(read.problem);
+    return;
+  }
+  Verified verified = verify(*read.record, folder, between);
+  decision.problems = std::move(verified.problems);
+  if (!decision.problems.empty()) return;
+  decision.record = std::move(read.record);
+  decision.files = std::move(verified.files);
+}
+
 }  // namespace
 
 std::string describe_changes(const std::string& before, const std::string& now) {
@@ -89,34 +127,41 @@ std::string describe_changes(const std::string& before, const std::string& now) 
 
 Decision decide(const fs::path& run_folder, const WorkflowStage& stage,
                 const std::map<std::string, std::string>& inputs,
-                const std::optional<StageRecord>& previous) {
+                const std::optional<StageRecord>& previous, const Between& between) {
+  Decision decision;
   for (const Link& link : stage.inputs) {
     if (inputs.contains(link.port)) continue;
-    const std::string why = explain(stage, {}, previous);
-    return {Action::undecided,
-            why == "result is missing" ? fmt::format("input may change ({})", link.port) : why,
-            {},
-            {}};
+    decision.action = Action::undecided;
+    decision.why = explain(stage, {}, previous);
+    if (decision.why == "result is missing")
+      decision.why = fmt::format("input may change ({})", link.port);
+    return decision;
   }
-  Decision decision{Action::run, {}, stage_key(stage.type, stage.prepared.settings, inputs), {}};
-  const fs::path folder = result_folder(run_folder, stage.name, decision.key);
-  decision.record = read_record(folder);
-  if (decision.record && decision.record->key == decision.key) {
-    const auto harm = damage(*decision.record, folder);
-    if (!harm) {
-      const bool current = previous && previous->key == decision.key;
-      decision.action = Action::reuse;
-      decision.why = current ? "up to date" : "up to date (earlier result with these settings)";
-      return decision;
-    }
-    decision.why = *harm;
-  } else {
-    decision.why = explain(stage, inputs, previous);
+  decision.key = stage_key(stage.type, stage.prepared.settings, inputs);
+  look_at_result(decision, result_folder(run_folder, stage.name, decision.key), stage, between);
+  if (decision.record) {
+    decision.action = Action::reuse;
+    decision.why = "up to date";
+    std::vector<std::string> remarks;
+    if (!previous || previous->key != decision.key)
+      remarks.emplace_back("earlier result with these settings");
+    if (decision.record->program != program_version())
+      remarks.push_back("made by " + short_version(decision.record->program));
+    if (!remarks.empty()) decision.why += fmt::format(" ({})", fmt::join(remarks, ", "));
+    return decision;
   }
-  decision.record.reset();
-  if (stage.type.checkpoints && fs::exists(work_folder(run_folder, stage.name, decision.key))) {
+  decision.why = decision.problems.empty() ? explain(stage, inputs, previous)
+                                           : "result was damaged: " + decision.problems.front();
+  if (!stage.type.checkpoints) return decision;
+  SessionRead read = read_session(work_folder(run_folder, stage.name, decision.key));
+  if (read.session && is_touched(*read.session, stage.prepared.files))
+    read = {{}, "an input file was written since it was killed"};
+  if (read.session) {
     decision.action = Action::resume;
     decision.why = "continues an interrupted run";
+  } else if (!read.problem.empty()) {
+    decision.why = fmt::format("starts over ({})", read.problem);
+    decision.problems.push_back("the interrupted run cannot be continued: " + read.problem);
   }
   return decision;
 }

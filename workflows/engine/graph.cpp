@@ -1,7 +1,10 @@
 #include "workflows/engine/graph.hpp"
 
+#include "workflows/engine/names.hpp"
+
 #include <algorithm>
 #include <cctype>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -50,13 +53,6 @@ void refuse_unknown_keys(const YamlNode& map, const std::vector<std::string>& kn
   }
 }
 
-/// Names become folders, so only characters that every file system and shell takes as they are.
-bool is_name(std::string_view text) {
-  return !text.empty() && text.size() <= 64 && std::isalnum(static_cast<unsigned char>(text[0])) &&
-         std::all_of(text.begin(), text.end(),
-                     [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
-}
-
 std::vector<std::string> names(const std::vector<Port>& ports) {
   std::vector<std::string> out;
   for (const Port& p : ports) out.push_back(p.name);
@@ -75,8 +71,15 @@ struct Draft {
   std::vector<YamlNode> link_nodes;
 };
 
-const StageType& find_type(const YamlNode& node, std::span<const StageType> types) {
+/// `others` are the names of the other stages of the file.
+const StageType& find_type(const YamlNode& node, std::span<const StageType> types,
+                           const std::vector<std::string>& others) {
   const auto uses = node.find("uses");
+  // What --set makes has no line: the name was meant to be that of another stage.
+  if (!uses && node.key_where().line == 0)
+    throw node.error(
+        fmt::format("the file has no such stage. {}",
+                    did_you_mean(node.path().substr(node.path().rfind('.') + 1), others)));
   if (!uses) throw node.error("the stage has no 'uses' (it must say what the stage does).");
   const std::string& wanted = uses->scalar();
   std::vector<std::string> known;
@@ -174,6 +177,44 @@ std::vector<WorkflowStage> sort_stages(std::vector<Draft>& drafts) {
   return sorted;
 }
 
+/// Every line of a text as an error of its own at the place of a node.
+InputError locate(const YamlNode& node, const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(node.error(line).what());
+  return InputError(fmt::format("{}", fmt::join(lines, "\n")));
+}
+
+/// Lets each stage look at its files and at what is known of its inputs.
+void preview_stages(Workflow& workflow, const YamlNode& stages, Problems& problems) {
+  std::vector<std::map<std::string, std::any>> known(workflow.stages.size());  // by output port
+  for (std::size_t i = 0; i < workflow.stages.size(); ++i) {
+    WorkflowStage& stage = workflow.stages[i];
+    if (!stage.prepared.preview) continue;
+    const YamlNode node = *stages.find(stage.name);
+    const YamlNode place = node.find("with").value_or(node);
+    Previews inputs;
+    for (const Link& link : stage.inputs)
+      if (const auto it = known[link.from_stage].find(link.from_port);
+          it != known[link.from_stage].end())
+        inputs[link.port] = it->second;
+    problems.collect([&] {
+      Findings found;
+      try {
+        const std::any preview = stage.prepared.preview(inputs, found);
+        for (const Port& port : stage.type.outputs) known[i][port.name] = preview;
+      } catch (const InputError& e) {
+        found.errors.emplace_back(e.what());
+      } catch (const FileError& e) {
+        throw FileError(locate(place, e.what()).what());
+      }
+      stage.warnings = std::move(found.warnings);
+      if (!found.errors.empty())
+        throw locate(place, fmt::format("{}", fmt::join(found.errors, "\n")));
+    });
+  }
+}
+
 }  // namespace
 
 std::string workflow_name(const YamlNode& document) {
@@ -227,7 +268,10 @@ Workflow load_workflow(const std::filesystem::path& path, std::span<const std::s
                         "Use letters, digits, '-' and '_'.",
                         name));
       refuse_unknown_keys(node, {"uses", "in", "with"});
-      draft.stage.type = find_type(node, types);
+      std::vector<std::string> others;
+      for (const auto& [other, unused] : entries)
+        if (other != name) others.push_back(other);
+      draft.stage.type = find_type(node, types, others);
     });
     if (draft.stage.type.name.empty()) continue;
     problems.collect([&, &node = node] {
@@ -239,6 +283,8 @@ Workflow load_workflow(const std::filesystem::path& path, std::span<const std::s
     problems.collect([&] { connect(drafts[i], entries[i].second, drafts); });
   }
   problems.collect([&] { workflow.stages = sort_stages(drafts); });
+  problems.raise();
+  preview_stages(workflow, *stages, problems);
   problems.raise();
   return workflow;
 }

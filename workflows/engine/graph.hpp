@@ -20,6 +20,7 @@ struct WorkflowStage {
   StageType type;
   PreparedStage prepared;
   std::vector<Link> inputs;  ///< in the order of type.inputs
+  std::vector<std::string> warnings = {};  ///< what is odd about its settings and their files
 };
 
 /// A workflow that can run: settings read, ports connected, stages after what feeds them.
@@ -33,9 +34,9 @@ struct Workflow {
 /// The name in a workflow file, without looking at the rest of it. Throws InputError, FileError.
 std::string workflow_name(const YamlNode& document);
 
-/// Reads a workflow file. Collects what is wrong in all stages before it throws: InputError if any
-/// of it is wrong input, FileError if only files are missing; one problem per line, each with
-/// its location and a suggestion.
+/// Reads a workflow file, and the files it names as far as that takes seconds. Collects what is
+/// wrong in all stages before it throws: InputError if any of it is wrong input, FileError if only
+/// files are missing; one problem per line, each with its location and a suggestion.
 Workflow load_workflow(const std::filesystem::path& path, std::span<const std::string> overrides,
                        std::span<const StageType> types);
 

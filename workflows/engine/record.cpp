@@ -1,31 +1,21 @@
 #include "workflows/engine/record.hpp"
 
 #include "core/check.hpp"
+#include "core/files.hpp"
 #include "core/hash.hpp"
+#include "workflows/engine/names.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <chrono>
-#include <cstring>
-#include <fcntl.h>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
-#include <unistd.h>
-
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace fs = std::filesystem;
 
 namespace flowslide {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-constexpr int kRecordSchema = 1;
-constexpr std::string_view kFactsFile = "facts.json";
-constexpr std::string_view kLockFile = "run.lock";
+constexpr int kRecordSchema = 2;
+constexpr std::uint64_t kLongestFacts = 64u << 20;
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
@@ -40,14 +30,58 @@ std::string text_of(const std::vector<std::string>& lines) {
   return text;
 }
 
+void expect_inside(const std::string& path) {
+  validate(stays_inside(path), "'{}' leaves the folder", path);
+}
+
+void check_names(const StageRecord& r) {
+  validate(is_name(r.stage), "'{}' cannot be a stage's name", r.stage);
+  validate(is_digest(r.key), "'{}' cannot be a key", r.key);
+  for (const OutputRecord& o : r.outputs) {
+    expect_inside(o.file);
+    validate(is_digest(o.sha256), "'{}' cannot be a checksum", o.sha256);
+  }
+  for (const std::string& file : r.publish) expect_inside(file);
+  for (const std::string& file : r.give) expect_inside(file);
+  for (const FileRecord& file : r.files) expect_inside(file.name);
+}
+
+FileRecord describe(const fs::path& folder, const std::string& name) {
+  HashedFile file = hash_file(folder / name);
+  return {.name = name, .bytes = file.state.size, .sha256 = std::move(file.sha256)};
+}
+
+const FileRecord* find_file(const std::vector<FileRecord>& files, std::string_view name) {
+  const auto it =
+      std::find_if(files.begin(), files.end(), [&](const FileRecord& f) { return f.name == name; });
+  return it == files.end() ? nullptr : &*it;
+}
+
+void insert_sorted(std::vector<FileRecord>& files, FileRecord file) {
+  const auto less = [](const FileRecord& a, const FileRecord& b) { return a.name < b.name; };
+  files.insert(std::lower_bound(files.begin(), files.end(), file, less), std::move(file));
+}
+
+/// The facts of a record whose other entries are there.
+std::string read_facts(const fs::path& folder, const StageRecord& record) {
+  const FileRecord* facts = find_file(record.files, kFactsFile);
+  validate(facts, "{} is missing in the record", kFactsFile);
+  const fs::path path = folder / kFactsFile;
+  std::error_code error;
+  validate(fs::exists(path, error) || error, "{} is missing", kFactsFile);
+  const std::string text = read_file(path, kLongestFacts);
+  validate(sha256(text) == facts->sha256, "the content of {} has changed", kFactsFile);
+  const auto json = parse_object(text);
+  validate(json.has_value(), "{} is no JSON object", kFactsFile);
+  return json->dump();
+}
+
+}  // namespace
+
 Json to_json(const StageRecord& r) {
   Json outputs = Json::array();
   for (const OutputRecord& o : r.outputs)
-    outputs.push_back({{"port", o.port},
-                       {"file", o.file},
-                       {"sha256", o.sha256},
-                       {"bytes", o.bytes},
-                       {"modified_ns", o.modified}});
+    outputs.push_back({{"port", o.port}, {"file", o.file}, {"sha256", o.sha256}});
   return {{"stage", r.stage},
           {"uses", r.uses},
           {"version", r.version},
@@ -56,6 +90,7 @@ Json to_json(const StageRecord& r) {
           {"inputs", r.inputs},
           {"outputs", outputs},
           {"publish", r.publish},
+          {"give", r.give},
           {"program", r.program},
           {"seconds", r.seconds}};
 }
@@ -63,49 +98,25 @@ Json to_json(const StageRecord& r) {
 StageRecord record_from(const Json& j) {
   StageRecord r{.stage = j.at("stage"),
                 .uses = j.at("uses"),
-                .version = j.at("version"),
+                .version = 0,
                 .key = j.at("key"),
                 .settings = text_of(j.at("settings")),
                 .inputs = j.at("inputs"),
                 .outputs = {},
+                .files = {},
                 .publish = j.at("publish"),
+                .give = j.at("give"),
                 .facts = "{}",
                 .program = j.at("program"),
                 .seconds = j.at("seconds")};
+  const std::uint64_t version = whole_number(j.at("version"));
+  validate(version < 1'000'000, "{} cannot be a version", version);
+  r.version = static_cast<int>(version);
   for (const Json& o : j.at("outputs"))
-    r.outputs.push_back(
-        {o.at("port"), o.at("file"), o.at("sha256"), o.at("bytes"), o.at("modified_ns")});
+    r.outputs.push_back({.port = o.at("port"), .file = o.at("file"), .sha256 = o.at("sha256")});
+  check_names(r);
   return r;
 }
-
-/// Names in a file system need not be UTF-8; JSON text must be.
-std::string json_text(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-std::optional<Json> read_json(const fs::path& path) {
-  std::ifstream in(path);
-  if (!in) return std::nullopt;
-  Json json = Json::parse(in, nullptr, false);
-  if (!json.is_object()) return std::nullopt;
-  return json;
-}
-
-[[noreturn]] void cannot(std::string_view what, const fs::path& path) {
-  throw FileError(fmt::format("{}: cannot {} ({})", path.string(), what, std::strerror(errno)));
-}
-
-/// All regular files below a folder, sorted by name; the path itself if it is a file.
-std::vector<fs::path> files_of(const fs::path& path) {
-  if (!fs::is_directory(path)) return {path};
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(path))
-    if (entry.is_regular_file()) files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-}  // namespace
 
 std::string stage_key(const StageType& type, const std::string& settings,
                       const std::map<std::string, std::string>& inputs) {
@@ -115,109 +126,105 @@ std::string stage_key(const StageType& type, const std::string& settings,
   return sha256(text);
 }
 
-std::string content_hash(const fs::path& path) {
-  if (!fs::is_directory(path)) return sha256_file(path);
+std::vector<FileRecord> list_files(const fs::path& folder) {
+  std::vector<FileRecord> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_directory() && !entry.is_symlink()) continue;
+    if (entry.is_symlink() || !entry.is_regular_file())
+      throw FileError(fmt::format("'{}' is no file (results hold files and folders only)",
+                                  entry.path().string()));
+    files.push_back(describe(folder, entry.path().lexically_relative(folder).generic_string()));
+  }
+  std::sort(files.begin(), files.end(),
+            [](const FileRecord& a, const FileRecord& b) { return a.name < b.name; });
+  return files;
+}
+
+std::string content_hash(const std::vector<FileRecord>& files, const std::string& file_or_folder) {
+  if (const FileRecord* file = find_file(files, file_or_folder)) return file->sha256;
+  const std::string prefix = file_or_folder + "/";
   std::string listing;
-  for (const fs::path& file : files_of(path))
-    listing +=
-        fmt::format("{} {}\n", sha256_file(file), file.lexically_relative(path).generic_string());
+  for (const FileRecord& file : files)
+    if (file.name.starts_with(prefix))
+      listing += fmt::format("{} {}\n", file.sha256, file.name.substr(prefix.size()));
   return sha256(listing);
 }
 
-OutputRecord describe_output(const Port& port, const fs::path& folder) {
-  OutputRecord r{.port = port.name, .file = port.file, .sha256 = {}, .bytes = 0, .modified = 0};
-  for (const fs::path& file : files_of(folder / port.file)) {
-    r.bytes += fs::file_size(file);
-    const auto time = std::chrono::file_clock::to_sys(fs::last_write_time(file));
-    r.modified = std::max<std::int64_t>(
-        r.modified,
-        std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch()).count());
-  }
-  return r;
-}
-
-std::optional<std::string> damage(const StageRecord& record, const fs::path& folder) {
-  for (const OutputRecord& output : record.outputs) {
-    const fs::path path = folder / output.file;
-    if (!fs::exists(path)) return fmt::format("result is missing {}", output.file);
-    const OutputRecord now = describe_output({output.port, {}, output.file}, folder);
-    if (now.bytes != output.bytes)
-      return fmt::format("result was damaged: {} has {} bytes, not {}", output.file, now.bytes,
-                         output.bytes);
-    if (now.modified != output.modified && content_hash(path) != output.sha256)
-      return fmt::format("result was damaged: the content of {} has changed", output.file);
-  }
-  return std::nullopt;
-}
-
-void write_atomically(const fs::path& path, std::string_view text) {
-  const fs::path temporary = path.string() + ".partial";
-  const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file < 0) cannot("write", temporary);
-  for (std::size_t done = 0; done < text.size();) {
-    const ssize_t n = ::write(file, text.data() + done, text.size() - done);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) {
-      ::close(file);
-      cannot("write", temporary);
-    }
-    done += static_cast<std::size_t>(n);
-  }
-  if (::close(file) != 0) cannot("write", temporary);
-  if (::rename(temporary.c_str(), path.c_str()) != 0) cannot("write", path);
-}
-
-void write_record(const fs::path& folder, const StageRecord& record) {
-  const Json facts = Json::parse(record.facts, nullptr, false);
-  if (!facts.is_object())
+void write_record(const fs::path& folder, StageRecord& record) {
+  const auto facts = parse_object(record.facts);
+  if (!facts)
     throw std::logic_error(fmt::format("facts of stage {} are no JSON object", record.stage));
-  write_atomically(folder / kFactsFile, json_text(facts));
+  write_file(folder / kFactsFile, json_text(*facts));
+  insert_sorted(record.files, describe(folder, std::string(kFactsFile)));
   Json json = {{"schema", kRecordSchema}};
   json.update(to_json(record));
-  write_atomically(folder / kRecordFile, json_text(json));
+  json["files"] = Json::array();
+  for (const FileRecord& file : record.files)
+    json["files"].push_back({{"name", file.name}, {"bytes", file.bytes}, {"sha256", file.sha256}});
+  write_file(folder / kRecordFile, seal(json));
 }
 
-std::optional<StageRecord> read_record(const fs::path& folder) {
-  const auto json = read_json(folder / kRecordFile);
-  const auto facts = read_json(folder / kFactsFile);
-  if (!json || !facts) return std::nullopt;
-  try {
-    if (json->at("schema") != kRecordSchema) return std::nullopt;
-    StageRecord record = record_from(*json);
-    record.facts = facts->dump();
-    return record;
-  } catch (const Json::exception&) {
-    return std::nullopt;
+RecordRead read_record(const fs::path& folder) {
+  const SealedJson file = read_sealed(folder / kRecordFile);
+  if (!file.json) {
+    std::error_code error;
+    if (!file.problem.empty() || !fs::exists(folder, error)) return {{}, file.problem};
+    return {{}, fmt::format("{} is missing", kRecordFile)};
   }
-}
-
-void write_lock(const fs::path& run_folder, const RunLock& lock) {
-  Json stages = Json::object();
-  for (const auto& [name, record] : lock.stages) stages[name] = to_json(record);
-  const Json json = {{"schema", kRecordSchema},   {"workflow", lock.workflow},
-                     {"file", lock.file},         {"set", lock.overrides},
-                     {"complete", lock.complete}, {"published", lock.published},
-                     {"stages", stages}};
-  write_atomically(run_folder / kLockFile, json_text(json));
-}
-
-std::optional<RunLock> read_lock(const fs::path& run_folder) {
-  const auto json = read_json(run_folder / kLockFile);
-  if (!json) return std::nullopt;
+  StageRecord record;
+  const auto cannot_be_used = [](const std::exception& e) {
+    return RecordRead{{}, fmt::format("{} cannot be used ({})", kRecordFile, e.what())};
+  };
   try {
-    if (json->at("schema") != kRecordSchema) return std::nullopt;
-    RunLock lock{.workflow = json->at("workflow"),
-                 .file = json->at("file"),
-                 .overrides = json->at("set"),
-                 .complete = json->at("complete"),
-                 .published = json->at("published"),
-                 .stages = {}};
-    for (const auto& [name, record] : json->at("stages").items())
-      lock.stages[name] = record_from(record);
-    return lock;
-  } catch (const Json::exception&) {
-    return std::nullopt;
+    validate(file.json->at("schema") == kRecordSchema, "another program wrote it");
+    record = record_from(*file.json);
+    for (const Json& f : file.json->at("files"))
+      record.files.push_back(
+          {.name = f.at("name"), .bytes = whole_number(f.at("bytes")), .sha256 = f.at("sha256")});
+    check_names(record);
+  } catch (const Json::exception& e) {
+    return cannot_be_used(e);
+  } catch (const InputError& e) {
+    return cannot_be_used(e);
   }
+  try {
+    record.facts = read_facts(folder, record);
+  } catch (const InputError& e) {
+    return {{}, e.what()};
+  }
+  return {std::move(record), {}};
+}
+
+Verified verify(const StageRecord& record, const fs::path& folder, const Between& between) {
+  Verified result;
+  const auto problem = [&](std::string text) { result.problems.push_back(std::move(text)); };
+  for (const FileRecord& file : record.files) {
+    const fs::path path = folder / file.name;
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (status.type() == fs::file_type::not_found) {
+      problem(fmt::format("{} is missing", file.name));
+    } else if (status.type() != fs::file_type::none && !fs::is_regular_file(status)) {
+      problem(fmt::format("{} is no file", file.name));
+    } else if (const FileState state = file_state(path); state.size != file.bytes) {
+      problem(fmt::format("{} has {} bytes, not {}", file.name, state.size, file.bytes));
+    } else if (HashedFile now = hash_file(path, between); now.sha256 != file.sha256) {
+      problem(fmt::format("the content of {} has changed", file.name));
+    } else {
+      result.files.push_back(std::move(now));
+    }
+  }
+  return result;
+}
+
+std::vector<HashedFile> files_of_output(const std::vector<HashedFile>& files,
+                                        const fs::path& file_or_folder) {
+  std::vector<HashedFile> found;
+  const std::string prefix = file_or_folder.string() + "/";
+  for (const HashedFile& file : files)
+    if (file.path == file_or_folder || file.path.string().starts_with(prefix))
+      found.push_back(file);
+  return found;
 }
 
 }  // namespace flowslide

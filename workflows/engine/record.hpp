@@ -1,4 +1,6 @@
 #pragma once
+#include "core/hashed_file.hpp"
+#include "workflows/engine/sealed_json.hpp"
 #include "workflows/engine/stage.hpp"
 
 #include <cstdint>
@@ -12,17 +14,23 @@
 namespace flowslide {
 
 inline constexpr std::string_view kRecordFile = "stage.json";
+inline constexpr std::string_view kFactsFile = "facts.json";
 
-/// An output of a stage as it was when the stage ended.
-struct OutputRecord {
-  std::string port;
-  std::string file;           ///< name in the stage's folder
-  std::string sha256;         ///< of the content; of names and contents for a folder
-  std::uint64_t bytes = 0;    ///< sum over the files of a folder
-  std::int64_t modified = 0;  ///< [ns] of the file system's clock; latest file of a folder
+/// A file of a result as it was when the stage ended.
+struct FileRecord {
+  std::string name;  ///< relative to the result's folder, parts separated by '/'
+  std::uint64_t bytes = 0;
+  std::string sha256;
 };
 
-/// Everything that made a result: stage.json in the folder of the result, and an entry of run.lock.
+struct OutputRecord {
+  std::string port;
+  std::string file;    ///< file or folder in the result's folder
+  std::string sha256;  ///< of the content; of names and contents for a folder
+};
+
+/// Everything that made a result: stage.json in the folder of the result, and without the list of
+/// files an entry of run.lock.
 struct StageRecord {
   std::string stage;  ///< its name in the workflow
   std::string uses;   ///< the stage's type
@@ -31,20 +39,12 @@ struct StageRecord {
   std::string settings;                       ///< canonical text
   std::map<std::string, std::string> inputs;  ///< sha256 by port
   std::vector<OutputRecord> outputs;
-  std::vector<std::string> publish;
-  std::string facts = "{}";  ///< JSON object; facts.json
-  std::string program;       ///< program_version() of the program that ran it
-  double seconds = 0.0;      ///< wall time of all sessions that worked on it [s]
-};
-
-/// DIR/run.lock: which results the run folder stands for at present.
-struct RunLock {
-  std::string workflow;
-  std::string file;                    ///< workflow file, absolute
-  std::vector<std::string> overrides;  ///< --set options
-  bool complete = false;               ///< false while stages are still to run
-  std::vector<std::string> published;  ///< names at the top of DIR
-  std::map<std::string, StageRecord> stages;
+  std::vector<FileRecord> files;     ///< all but stage.json, sorted by name
+  std::vector<std::string> publish;  ///< see StageResult
+  std::vector<std::string> give;     ///< see StageResult
+  std::string facts = "{}";          ///< JSON object; facts.json
+  std::string program;               ///< program_version() of the program that ran it
+  double seconds = 0.0;              ///< wall time of all sessions that worked on it [s]
 };
 
 /// Changes whenever a new result could differ: stage type and version, settings, contents of the
@@ -52,24 +52,38 @@ struct RunLock {
 std::string stage_key(const StageType& type, const std::string& settings,
                       const std::map<std::string, std::string>& inputs);
 
-/// SHA-256 of a file, or of the sorted names and contents of a folder. Throws FileError.
-std::string content_hash(const std::filesystem::path& path);
+/// What a folder holds, sorted by name. FileError for anything but folders and regular files.
+std::vector<FileRecord> list_files(const std::filesystem::path& folder);
 
-/// Size and time of the last change, of a file or of all files of a folder.
-OutputRecord describe_output(const Port& port, const std::filesystem::path& folder);
+/// SHA-256 of a file of the list, or of the sorted names and contents of a folder.
+std::string content_hash(const std::vector<FileRecord>& files, const std::string& file_or_folder);
 
-/// Why the files of `folder` are no longer those of the record; empty if they are. Contents are
-/// only read where size is right and time is not.
-std::optional<std::string> damage(const StageRecord& record, const std::filesystem::path& folder);
+/// Writes facts.json and adds it to record.files, then stage.json.
+void write_record(const std::filesystem::path& folder, StageRecord& record);
 
-/// Written by way of a temporary file, so that no reader ever sees half of it. Throws FileError.
-void write_atomically(const std::filesystem::path& path, std::string_view text);
+struct RecordRead {
+  std::optional<StageRecord> record;
+  std::string problem;  ///< empty too if there is no folder
+};
 
-void write_record(const std::filesystem::path& folder, const StageRecord& record);
-/// Empty if there is none that this program can read.
-std::optional<StageRecord> read_record(const std::filesystem::path& folder);
+/// Checks the text by its checksum and every name in it by names.hpp. FileError if the system
+/// cannot read what is there.
+RecordRead read_record(const std::filesystem::path& folder);
 
-void write_lock(const std::filesystem::path& run_folder, const RunLock& lock);
-std::optional<RunLock> read_lock(const std::filesystem::path& run_folder);
+/// The files of a result against its record.
+struct Verified {
+  std::vector<std::string> problems;  ///< "mpm.h5 is missing", one per file
+  std::vector<HashedFile> files;      ///< those without a problem, in the order of the record
+};
+Verified verify(
+    const StageRecord& record, const std::filesystem::path& folder, const Between& between = [] {});
+
+/// Those of `files` that belong to an output.
+std::vector<HashedFile> files_of_output(const std::vector<HashedFile>& files,
+                                        const std::filesystem::path& file_or_folder);
+
+/// A record as JSON, without facts and files; the inverse throws Json::exception or InputError.
+Json to_json(const StageRecord& record);
+StageRecord record_from(const Json& json);
 
 }  // namespace flowslide

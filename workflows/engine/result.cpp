@@ -1,17 +1,15 @@
 #include "workflows/engine/program_version.hpp"
 #include "workflows/engine/runner.hpp"
+#include "workflows/engine/sealed_json.hpp"
 
 #include <algorithm>
 #include <array>
 #include <map>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace flowslide {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Promised to every reader of result.json; null if no stage of the workflow finds them.
 constexpr std::array<std::string_view, 6> kPromised{"runout_m",
@@ -21,8 +19,8 @@ constexpr std::array<std::string_view, 6> kPromised{"runout_m",
                                                     "mass_error",
                                                     "energy_error"};
 /// Names at the top that no stage can claim.
-constexpr std::array<std::string_view, 6> kReserved{"schema", "program", "workflow",
-                                                    "wall_s", "wall",    "stages"};
+constexpr std::array<std::string_view, 8> kReserved{"schema", "program", "workflow", "wall_s",
+                                                    "wall",   "stages",  "sha256", "warnings"};
 
 }  // namespace
 
@@ -31,12 +29,14 @@ std::string result_json(const Workflow& workflow, const std::vector<StageOutcome
   Json result = {{"schema", 1}, {"program", program_version()}, {"workflow", workflow.name}};
   for (std::string_view name : kPromised) result[std::string(name)] = nullptr;
 
-  Json stages = Json::object();
+  Json stages = Json::object(), warnings = Json::array();
   std::map<std::string, std::string> found_by;  // type of stage, by name of the fact
   double stage_seconds = 0.0;
   for (const auto& [record, decision] : outcomes) {
     stage_seconds += record.seconds;
     const Json facts = Json::parse(record.facts);
+    for (const std::string& text : decision.warnings)
+      warnings.push_back(fmt::format("{}: {}", record.stage, text));
     stages[record.stage] = {{"uses", record.uses},
                             {"seconds", record.seconds},
                             {"cached", decision.action == Action::reuse},
@@ -52,6 +52,7 @@ std::string result_json(const Workflow& workflow, const std::vector<StageOutcome
       found_by[name] = record.uses;
     }
   }
+  result["warnings"] = warnings;
   result["wall_s"] = stage_seconds + overhead;
   result["wall"] = {{"stages_s", stage_seconds},
                     {"overhead_s", overhead},
@@ -59,7 +60,7 @@ std::string result_json(const Workflow& workflow, const std::vector<StageOutcome
                      "stages_s: the sessions that computed these stages, whenever that was; "
                      "overhead_s: this call outside the stages; wall_s: their sum"}};
   result["stages"] = stages;
-  return result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return seal(result);
 }
 
 }  // namespace flowslide

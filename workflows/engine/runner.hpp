@@ -17,6 +17,8 @@ struct RunOptions {
   /// Set by a signal handler: the running stage writes a checkpoint and the run ends.
   const std::atomic<bool>* stop_requested = nullptr;
   std::vector<std::string> redo = {};  ///< stages that run even if they are up to date
+  /// Programs that a workflow file may have started, as it names them: the user's word.
+  std::vector<std::string> allowed_programs = {};
 };
 
 /// What a run tells its caller.
@@ -28,12 +30,20 @@ struct RunEvents {
       [](std::string_view, double, std::string_view) {};
   std::function<void(std::string_view stage, double seconds)> done = [](std::string_view, double) {
   };
+  /// Something of the run folder that was not as it should be, or that is no longer there.
+  std::function<void(std::string_view text)> notice = [](std::string_view) {};
+  /// What a user must know before using the result of a stage: once it is decided on, of its
+  /// settings and of a result that is used again; when it ends, of the new result.
+  std::function<void(std::string_view stage, const std::vector<std::string>&)> warned =
+      [](std::string_view, const std::vector<std::string>&) {};
 };
 
 /// Brings the run folder up to date with the workflow and writes DIR/result.json. Finished stages
-/// are kept whatever happens later; while result.json is there, it belongs to this workflow.
-/// Throws Interrupted, FileError if another process uses the folder, and what the stages throw,
-/// with the stage's name in front.
+/// are kept whatever happens later. What an earlier workflow has put at the top of the folder stays
+/// until a stage has to run, and goes then: while result.json is there, it belongs to the workflow
+/// that run.lock names.
+/// Throws Interrupted, InputError if a stage would start a program without permission, FileError if
+/// another process uses the folder, and what the stages throw, with the stage's name in front.
 void run_workflow(const Workflow& workflow, const RunOptions& options, const RunEvents& events);
 
 struct PlanLine {
@@ -41,7 +51,7 @@ struct PlanLine {
   Decision decision;
 };
 
-/// What run_workflow would do; reads the run folder, if there is one, and changes nothing.
+/// What run_workflow would do; reads all of the run folder, if there is one, and changes nothing.
 std::vector<PlanLine> plan_workflow(const Workflow& workflow, const std::filesystem::path& folder);
 
 /// Text of DIR/result.json: what the stages found, in SI units, each number under its own name at

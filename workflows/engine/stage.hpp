@@ -1,10 +1,12 @@
 #pragma once
+#include "config/canonical.hpp"
 #include "config/manual.hpp"
 #include "config/schema.hpp"
 #include "config/yaml.hpp"
 #include "core/progress.hpp"
 #include "workflows/engine/artifact.hpp"
 
+#include <any>
 #include <concepts>
 #include <functional>
 #include <map>
@@ -24,13 +26,28 @@ struct RunContext {
   Progress progress;
   /// What identifies the run, as (name, text): workflow, program, hashes of the inputs.
   std::vector<std::pair<std::string, std::string>> provenance;
+  /// For stages with `reads_warnings`: those of all stages before it, as "stage: text".
+  std::vector<std::string> warnings = {};
 };
 
 struct StageResult {
   std::string facts = "{}";  ///< JSON object; its entries go into result.json
   /// Files and folders in the stage's folder that appear at the top of the run folder, by name.
   std::vector<std::string> publish;
+  /// Files that are copied to the top of the run folder, where they are the user's to change.
+  std::vector<std::string> give = {};
+  /// What a user must know before using the result, one sentence each: shown on the terminal when
+  /// the stage ends and whenever its result is used again, in result.json and in the report.
+  std::vector<std::string> warnings = {};
 };
+
+/// What is wrong and what is odd about settings and the files they name, before anything runs.
+struct Findings {
+  std::vector<std::string> errors, warnings;
+};
+
+/// What is known of each input before anything runs, by port; empty where nothing is.
+using Previews = std::map<std::string, std::any>;
 
 struct NoSettings {};
 template <>
@@ -57,9 +74,15 @@ struct Schema<NoSettings> {
 ///       static StageResult run(const RunContext&, const Config&, const Inputs&, const Outputs&);
 ///     };
 ///
-/// `static void check(const Config&)` is called, if there is one, before anything runs.
-/// run() must give the same bytes for the same settings and inputs, whatever the number of threads.
-/// With `checkpoints`, run() looks into context.folder for its own checkpoint first.
+/// `static void check(const Config&)` is called, if there is one, before anything runs, and then,
+/// in the order of the stages, `static std::any preview(const Config&, const Previews&,
+/// Findings&)`: it opens the files that the settings name, compares the settings with those of
+/// other stages, and returns what later stages may compare theirs with. With `static constexpr bool
+/// reads_warnings = true`, run() gets the warnings of earlier stages, and other warnings make
+/// another result. `static std::vector<std::string> programs(const Config&)` names what the stage
+/// would start at the word of a workflow file; the engine asks for the user's. run() must give the
+/// same bytes for the same settings and inputs, whatever the number of threads. With `checkpoints`,
+/// run() looks into context.folder for its own checkpoint first.
 template <class S>
 concept Stage = requires(const RunContext& context, const typename S::Config& config,
                          const typename S::Inputs& in, const typename S::Outputs& out) {
@@ -81,8 +104,12 @@ using PortPaths = std::map<std::string, std::filesystem::path>;
 
 /// A stage with its settings read and checked.
 struct PreparedStage {
-  std::string settings;  ///< canonical text
+  std::string settings;               ///< canonical text
+  std::vector<HashedFile> files;      ///< that the settings name, as they were when read for it
+  std::vector<std::string> programs;  ///< that the settings name and the stage would start
   std::function<StageResult(const RunContext&, const PortPaths&)> run;
+  /// Empty if there is none. May throw what run() throws for wrong input and missing files.
+  std::function<std::any(const Previews&, Findings&)> preview;
 };
 
 /// A Stage as a value; lists of these are what a workflow may use.
@@ -91,6 +118,7 @@ struct StageType {
   std::string doc;
   int version = 0;
   bool checkpoints = false;
+  bool reads_warnings = false;
   std::vector<Port> inputs, outputs;
   /// Reads and checks the settings. `with` is absent if the user gave none; `stage` is for
   /// messages.
@@ -100,6 +128,15 @@ struct StageType {
 };
 
 namespace detail {
+
+template <class S>
+inline constexpr bool kReadsWarnings = false;
+template <class S>
+requires requires { S::reads_warnings; }
+inline constexpr bool kReadsWarnings<S> = S::reads_warnings;
+
+/// A FileError of canonical_text, "path.of.setting: why", at the place where the file is named.
+FileError locate_file(const YamlNode& settings, std::string_view text);
 
 template <class P>
 std::vector<Port> list_ports() {
@@ -127,6 +164,7 @@ StageType stage_type() {
                  .doc = std::string(S::doc),
                  .version = S::version,
                  .checkpoints = S::checkpoints,
+                 .reads_warnings = detail::kReadsWarnings<S>,
                  .inputs = detail::list_ports<typename S::Inputs>(),
                  .outputs = detail::list_ports<typename S::Outputs>(),
                  .prepare = {},
@@ -149,11 +187,26 @@ StageType stage_type() {
         throw with.value_or(stage).error(e.what());
       }
     }
-    return PreparedStage{
-        canonical_text(config), [config](const RunContext& context, const PortPaths& paths) {
-          return S::run(context, config, detail::bind_ports<typename S::Inputs>(paths),
-                        detail::bind_ports<typename S::Outputs>(paths));
-        }};
+    PreparedStage prepared;
+    try {
+      CanonicalSettings canonical = canonical_settings(config);
+      prepared.settings = std::move(canonical.text);
+      prepared.files = std::move(canonical.files);
+    } catch (const FileError& e) {
+      throw detail::locate_file(with.value_or(stage), e.what());
+    }
+    if constexpr (requires { S::programs(config); }) prepared.programs = S::programs(config);
+    prepared.run = [config](const RunContext& context, const PortPaths& paths) {
+      return S::run(context, config, detail::bind_ports<typename S::Inputs>(paths),
+                    detail::bind_ports<typename S::Outputs>(paths));
+    };
+    if constexpr (requires(const Previews& in, Findings& found) {
+                    { S::preview(config, in, found) } -> std::same_as<std::any>;
+                  })
+      prepared.preview = [config](const Previews& in, Findings& found) {
+        return S::preview(config, in, found);
+      };
+    return prepared;
   };
   return type;
 }

@@ -1,10 +1,13 @@
 #include "workflows/stages/fem_run.hpp"
 
 #include "exporters/opensees_recorders.hpp"
+#include "fem/build_model.hpp"
 #include "fem/run.hpp"
 #include "model/history.hpp"
 #include "model/motion_file.hpp"
-#include "transfer/zone_record.hpp"
+#include "transfer/zone/zone_record.hpp"
+#include "workflows/stages/cross_checks.hpp"
+#include "workflows/stages/preview.hpp"
 #include "workflows/stages/stage_list.hpp"
 
 #include <memory>
@@ -37,7 +40,7 @@ struct FemRun {
   static constexpr std::string_view name = "fem.run";
   static constexpr std::string_view doc =
       "Gravity and shaking of a saturated section, with the finite element method.";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   static constexpr bool checkpoints = true;
   using Config = FemRunConfig;
   struct Inputs {
@@ -55,6 +58,21 @@ struct FemRun {
   static void check(const Config& config) {
     flowslide::check(config);
     if (config.stop_at_transfer) flowslide::check(*config.stop_at_transfer);
+  }
+  static std::any preview(const Config& config, const Previews& in, Findings& found) {
+    Preview p = merged(in);
+    check_fem_soils(config, found);
+    p.stop = config.stop_at_transfer;
+    p.shakes = true;
+    p.end = config.end;
+    if (!p.section) return p;
+    check_water(config, p.section->mesh, found);
+    for (const MaterialName& m : p.section->materials)
+      if (const auto at = config.materials.find(m.name); at != config.materials.end())
+        p.density[m.tag] = at->second.density;
+    (void)fem::build_model(*p.section, config);  // names, sets and ends against the mesh
+    if (config.stop_at_transfer) (void)zone_parts(p.section->mesh, *config.stop_at_transfer, true);
+    return p;
   }
   static StageResult run(const RunContext& context, const Config& config, const Inputs& in,
                          const Outputs& out) {
@@ -81,7 +99,7 @@ struct FemRun {
                                     {"fem_cut_steps", f.cut_steps},
                                     {"fem_seconds", f.seconds},
                                     {"fem_notes", f.notes}};
-    StageResult result{.facts = {}, .publish = {}};
+    StageResult result{.facts = {}, .publish = {}, .warnings = f.notes};
     if (config.opensees_recorders) {
       const std::vector<std::string> lost =
           write_opensees_recorders(context.folder / "recorders", FemHistory(out.history.path));

@@ -1,6 +1,6 @@
 #pragma once
 #include "fem/config.hpp"
-#include "transfer/stop_config.hpp"
+#include "transfer/zone/stop_config.hpp"
 
 #include <optional>
 

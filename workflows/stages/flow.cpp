@@ -1,5 +1,7 @@
-#include "mpm/flow.hpp"
+#include "mpm/run/flow.hpp"
 
+#include "workflows/stages/cross_checks.hpp"
+#include "workflows/stages/preview.hpp"
 #include "workflows/stages/stage_list.hpp"
 
 #include <nlohmann/json.hpp>
@@ -10,7 +12,7 @@ namespace {
 struct FlowStage {
   static constexpr std::string_view name = "mpm.run";
   static constexpr std::string_view doc = "The runout, with the material point method.";
-  static constexpr int version = 2;
+  static constexpr int version = 3;
   static constexpr bool checkpoints = true;
   using Config = FlowConfig;
   struct Inputs {
@@ -22,6 +24,21 @@ struct FlowStage {
     void visit(auto&& port) { port("history", history); }
   };
   static void check(const Config& config) { flowslide::check(config); }
+  static std::any preview(const Config& config, const Previews& in, Findings& found) {
+    Preview p = merged(in);
+    p.flow = config;
+    if (!p.map || p.map->compat != Compat::none) return p;
+    compare_cells(config, *p.map, found);
+    if (!p.section) return p;
+    const Soil soil = soil_of(*p.section, *p.map);
+    check_toe(config, soil, found);
+    check_edges(config, soil, found);
+    check_ground(config, soil, found);
+    check_cells(config, soil, found);
+    check_terrain(config, soil, found);
+    if (config.extrude) check_memory(*p.map, soil, config.extrude->width, physical_memory(), found);
+    return p;
+  }
   static StageResult run(const RunContext& context, const Config& config, const Inputs& in,
                          const Outputs& out) {
     const FlowPaths paths{out.history.path, context.folder / "checkpoint"};
@@ -30,6 +47,8 @@ struct FlowStage {
     const double width = config.extrude ? config.extrude->width : 1.0;
     const double rate = f.step_seconds > 0.0 ? f.updates_this_call / f.step_seconds : 0.0;
     nlohmann::ordered_json facts = {{"runout_m", f.last.runout},
+                                    {"front_m", f.last.front},
+                                    {"toe_m", config.toe},
                                     {"mass_error", f.last.mass_error},
                                     {"energy_error", f.last.energy_error},
                                     {"flow_end_s", f.end_time},

@@ -1,5 +1,7 @@
 #include "core/units.hpp"
 #include "importers/opensees.hpp"
+#include "workflows/stages/cross_checks.hpp"
+#include "workflows/stages/preview.hpp"
 #include "workflows/stages/stage_list.hpp"
 
 #include <nlohmann/json.hpp>
@@ -10,7 +12,7 @@ namespace {
 struct ImportOpenSees {
   static constexpr std::string_view name = "import.opensees";
   static constexpr std::string_view doc = "Reads mesh and recorders of an OpenSees model.";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   static constexpr bool checkpoints = false;
   using Config = OpenSeesConfig;
   struct Inputs {
@@ -26,6 +28,17 @@ struct ImportOpenSees {
     (void)unit_factor(config.units.time, Dim::time);
     (void)unit_factor(config.units.stress, Dim::stress);
   }
+  static std::any preview(const Config& config, const Previews&, Findings& found) {
+    ImportPreview import = preview_opensees(config);
+    SectionMesh section;
+    section.mesh = std::move(import.mesh);
+    Preview p;
+    p.shakes = config.shaking.has_value();
+    p.section = std::make_shared<const SectionMesh>(std::move(section));
+    found.warnings = std::move(import.warnings);
+    check_size(p.section->mesh, found);
+    return p;
+  }
   static StageResult run(const RunContext& context, const Config& config, const Inputs&,
                          const Outputs& out) {
     const ImportReport report = import_opensees(config, out.history.path, context.progress);
@@ -33,7 +46,7 @@ struct ImportOpenSees {
                                           {"fem_elements", report.num_elements},
                                           {"fem_frames", report.num_frames},
                                           {"import_warnings", report.warnings}};
-    return {.facts = facts.dump(), .publish = {}};
+    return {.facts = facts.dump(), .publish = {}, .warnings = report.warnings};
   }
 };
 

@@ -1,4 +1,6 @@
-#include "transfer/map_state.hpp"
+#include "transfer/map/map_state.hpp"
+#include "workflows/stages/cross_checks.hpp"
+#include "workflows/stages/preview.hpp"
 #include "workflows/stages/stage_list.hpp"
 
 #include <nlohmann/json.hpp>
@@ -9,7 +11,7 @@ namespace {
 struct MapStage {
   static constexpr std::string_view name = "transfer.map";
   static constexpr std::string_view doc = "Carries the state to material points, with an audit.";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   static constexpr bool checkpoints = false;
   using Config = MapConfig;
   struct Inputs {
@@ -29,15 +31,38 @@ struct MapStage {
     }
   };
   static void check(const Config& config) { flowslide::check(config); }
-  static StageResult run(const RunContext&, const Config& config, const Inputs& in,
+  static std::any preview(const Config& config, const Previews& in, Findings& found) {
+    Preview p = merged(in);
+    p.map = config;
+    if (!p.section || config.compat != Compat::none) return p;
+    const Soil soil = soil_of(*p.section, config);
+    check_map_materials(config, *p.section, soil, found);
+    check_map_tags(config, *p.section, p.zone, found);
+    check_memory(config, soil, kUnset, physical_memory(), found);
+    compare_densities(config, p.density, "fem.run", found);
+    if (!p.zone) return p;
+    std::map<int, double> of_zone;
+    for (const std::vector<double>& row : p.zone->densities)
+      of_zone[static_cast<int>(row[0])] = row[1];
+    compare_densities(config, of_zone, "transfer.zone", found);
+    return p;
+  }
+  static StageResult run(const RunContext& context, const Config& config, const Inputs& in,
                          const Outputs& out) {
     const MapResult result =
-        map_state(FemHistory(in.history.path), read_zone(in.zone.path), config);
+        map_state(FemHistory(in.history.path), read_zone(in.zone.path), config, context.progress);
     write_particles(out.particles.path, result.particles);
     write_audit(out.audit.path, result.audit);
     const nlohmann::ordered_json facts = {{"particles", result.particles.size()},
                                           {"audit_passed", result.audit.passed()}};
-    return {.facts = facts.dump(), .publish = {}};
+    StageResult stage{.facts = facts.dump(), .publish = {}, .warnings = {}};
+    for (const AuditCheck& check : result.audit.checks)
+      if (!check.passed())
+        stage.warnings.push_back(fmt::format(
+            "the audit was not enforced and would have refused this transfer: {} is {:.3g}, limit "
+            "{:.3g}.",
+            check.name, check.error, check.limit));
+    return stage;
   }
 };
 

@@ -1,6 +1,8 @@
 #include "section/mesh_section.hpp"
 
+#include "workflows/stages/cross_checks.hpp"
 #include "workflows/stages/mesh_facts.hpp"
+#include "workflows/stages/preview.hpp"
 #include "workflows/stages/stage_list.hpp"
 
 namespace flowslide {
@@ -9,7 +11,7 @@ namespace {
 struct MeshSectionStage {
   static constexpr std::string_view name = "mesh.section";
   static constexpr std::string_view doc = "Meshes a section of blocks with quadrilaterals.";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   static constexpr bool checkpoints = false;
   using Config = SectionConfig;
   struct Inputs {
@@ -21,11 +23,18 @@ struct MeshSectionStage {
   };
   /// Meshing takes less than a second, and most errors of a section show in the mesh only.
   static void check(const Config& config) { (void)mesh_section(config); }
+  static std::any preview(const Config& config, const Previews&, Findings& found) {
+    Preview p;
+    p.section = std::make_shared<const SectionMesh>(mesh_section(config));
+    found.warnings = p.section->notes;
+    check_size(p.section->mesh, found);
+    return p;
+  }
   static StageResult run(const RunContext&, const Config& config, const Inputs&,
                          const Outputs& out) {
     const SectionMesh section = mesh_section(config);
     write_section_mesh(out.mesh.path, section);
-    return {.facts = mesh_facts(section), .publish = {}};
+    return {.facts = mesh_facts(section), .publish = {}, .warnings = section.notes};
   }
 };
 

@@ -1,6 +1,7 @@
 #include "model/motion_file.hpp"
 #include "motion/measures.hpp"
 #include "motion/prepare.hpp"
+#include "workflows/stages/preview.hpp"
 #include "workflows/stages/stage_list.hpp"
 
 #include <nlohmann/json.hpp>
@@ -12,7 +13,7 @@ struct MotionPrepareStage {
   static constexpr std::string_view name = "motion.prepare";
   static constexpr std::string_view doc =
       "Reads or synthesises a ground motion, processes it and scales it.";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   static constexpr bool checkpoints = false;
   using Config = MotionConfig;
   struct Inputs {
@@ -23,11 +24,17 @@ struct MotionPrepareStage {
     void visit(auto&& port) { port("motion", motion); }
   };
   static void check(const Config& config) { flowslide::check(config); }
-  static StageResult run(const RunContext&, const Config& config, const Inputs&,
+  /// Reading a record takes less than a second; making a motion takes longer and opens no file.
+  static std::any preview(const Config& config, const Previews&, Findings& found) {
+    if (config.record) (void)prepare_motion(config, {}, &found.warnings);
+    return Preview{};
+  }
+  static StageResult run(const RunContext& context, const Config& config, const Inputs&,
                          const Outputs& out) {
-    const GroundMotion motion = prepare_motion(config);
+    std::vector<std::string> warnings;
+    const GroundMotion motion = prepare_motion(config, context.progress, &warnings);
     write_motion_file(out.motion.path, motion);
-    const MotionMeasures m = measure(motion);
+    const MotionMeasures m = measure(motion, context.progress);
     const nlohmann::ordered_json facts = {{"motion_pga_m_s2", m.pga},
                                           {"motion_pgv_m_s", m.pgv},
                                           {"motion_arias_m_s", m.arias},
@@ -37,7 +44,7 @@ struct MotionPrepareStage {
                                           {"motion_masi_m_s", m.masi},
                                           {"motion_dt_s", motion.dt},
                                           {"motion_duration_s", motion.duration()}};
-    return {.facts = facts.dump(), .publish = {}};
+    return {.facts = facts.dump(), .publish = {}, .warnings = std::move(warnings)};
   }
 };
 

@@ -1,5 +1,8 @@
-#include "transfer/zone.hpp"
+#include "transfer/zone/zone.hpp"
 
+#include "transfer/zone/zone_record.hpp"
+#include "workflows/stages/cross_checks.hpp"
+#include "workflows/stages/preview.hpp"
 #include "workflows/stages/stage_list.hpp"
 
 #include <nlohmann/json.hpp>
@@ -7,10 +10,29 @@
 namespace flowslide {
 namespace {
 
+std::vector<std::string> zone_warnings(const LiquefactionZone& zone, const ZoneConfig& config) {
+  std::size_t liquefied = 0, outside = 0;
+  for (std::size_t e = 0; e < zone.liquefied.size(); ++e) {
+    if (zone.liquefied[e] == 0) continue;
+    ++liquefied;
+    const double s = zone.sigma_v0[e];
+    outside += !(s >= config.strength.table.front()[0] && s <= config.strength.table.back()[0]);
+  }
+  if (liquefied == 0) return {"no element has liquefied at the transfer: nothing weakens the dam."};
+  constexpr double kMany = 0.5;
+  if (static_cast<double>(outside) > kMany * static_cast<double>(liquefied))
+    return {fmt::format(
+        "{} of {} liquefied elements lie outside strength.table ({:g} to {:g} kPa): its end values "
+        "decide their strength.",
+        outside, liquefied, config.strength.table.front()[0] / 1e3,
+        config.strength.table.back()[0] / 1e3)};
+  return {};
+}
+
 struct ZoneStage {
   static constexpr std::string_view name = "transfer.zone";
   static constexpr std::string_view doc = "Finds the liquefied zone and the time of transfer.";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   static constexpr bool checkpoints = false;
   using Config = ZoneConfig;
   struct Inputs {
@@ -22,6 +44,21 @@ struct ZoneStage {
     void visit(auto&& port) { port("zone", zone); }
   };
   static void check(const Config& config) { flowslide::check(config); }
+  static std::any preview(const Config& config, const Previews& in, Findings& found) {
+    Preview p = merged(in);
+    check_strength(config.strength, found);
+    if (p.stop) compare_transfer_rules(*p.stop, config, found);
+    p.zone = config;
+    if (p.end && config.transfer.at && *config.transfer.at > *p.end * (1.0 + 1e-9))
+      found.errors.push_back(fmt::format(
+          "at: {:g} s, but the shaking ends at {:g} s (there is no state to transfer) choose an "
+          "earlier time or a later `end` of fem.run",
+          *config.transfer.at, *p.end));
+    if (!p.section) return p;
+    check_pond(config, p.section->mesh, found);
+    (void)zone_parts(p.section->mesh, config, p.shakes);
+    return p;
+  }
   static StageResult run(const RunContext& context, const Config& config, const Inputs& in,
                          const Outputs& out) {
     const LiquefactionZone zone = find_zone(FemHistory(in.history.path), config, context.progress);
@@ -31,7 +68,7 @@ struct ZoneStage {
     for (std::size_t i = 0; i < zone.window_names.size(); ++i)
       facts["liquefaction_depth_" + zone.window_names[i] + "_m"] = zone.window_depth_max[i];
     facts["zone_notes"] = zone.notes;
-    return {.facts = facts.dump(), .publish = {}};
+    return {.facts = facts.dump(), .publish = {}, .warnings = zone_warnings(zone, config)};
   }
 };
 

@@ -1,0 +1,80 @@
+#include "motion/foreign.hpp"
+
+#include "core/check.hpp"
+#include "core/conventions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace flowslide {
+namespace {
+
+/// A format is recognised if every text stands in one of its first lines.
+struct Format {
+  std::string_view name;
+  std::array<std::string_view, 2> texts;  ///< in capitals
+  std::string_view what;
+};
+
+constexpr std::string_view kColumns =
+    "write time and acceleration as two columns, one row per value, and declare the unit";
+
+constexpr std::array kFormats = {
+    Format{"K-NET or KiK-net",
+           {"SAMPLING FREQ(HZ)", "SCALE FACTOR"},
+           "its numbers are counts, eight to a line, to be multiplied by the scale factor"},
+    Format{"K-NET CSV",
+           {"#ORIGIN_TIME", "#SAMPLING_FREQ"},
+           "its first column is a date, followed by three components"},
+    Format{"COSMOS",
+           {"(FORMAT V", "VALUES FOLLOW"},
+           "its values stand after headers of text, integers and reals"},
+    Format{
+        "SMC", {"*", "CORRECTED ACCELEROGRAM"}, "its values stand in fixed columns after a header"},
+    Format{"CSMIP",
+           {"CORRECTED ACCELEROGRAM", ""},
+           "its values stand in fixed columns after headers of 25 to 100 lines"},
+    Format{"COSMOS or CSMIP",
+           {"INTEGER-HEADER", ""},
+           "its values stand after headers of text, integers and reals"},
+    Format{"ESM",
+           {"SAMPLING_INTERVAL_S:", "UNITS:"},
+           "its values are one column after a header of 64 lines"},
+};
+
+}  // namespace
+
+void refuse_foreign_format(const RecordText& text) {
+  constexpr std::size_t kHeaderLines = 80;
+  std::vector<std::string> head;
+  for (std::size_t i = 0; i < std::min(kHeaderLines, text.lines.size()); ++i)
+    head.push_back(upper_case(text.lines[i]));
+  const auto has = [&](std::string_view wanted) {
+    if (wanted.empty()) return true;
+    return std::any_of(head.begin(), head.end(), [&](const std::string& line) {
+      return wanted == "*" ? trimmed(line) == wanted : line.find(wanted) != std::string::npos;
+    });
+  };
+  for (const Format& f : kFormats)
+    validate(!has(f.texts[0]) || !has(f.texts[1]),
+             "{}: is a record in the format {} (which is not read: {}) {}", text.name, f.name,
+             f.what, kColumns);
+}
+
+std::string implausible_peak(const std::string& name, double peak) {
+  // The largest peaks ever recorded on the ground are 3 to 4 g; below 0.0005 g nobody feels it.
+  constexpr double kMost = 3.0 * kGravity, kLeast = 5e-4 * kGravity;
+  if (peak > kMost)
+    return fmt::format(
+        "{}: the peak is {:.3g} g. Hardly any record exceeds 3 g; is the unit of acceleration "
+        "right?",
+        name, peak / kGravity);
+  if (peak < kLeast)
+    return fmt::format(
+        "{}: the peak is {:.2g} g, which nobody would feel. Is the unit of acceleration right?",
+        name, peak / kGravity);
+  return {};
+}
+
+}  // namespace flowslide

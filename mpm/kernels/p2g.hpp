@@ -1,0 +1,173 @@
+#pragma once
+#include "mpm/grid/local_grid.hpp"
+#include "mpm/kernels/stencil.hpp"
+
+/// Particle to grid: mass, momentum (with the affine field) and internal force in one sweep.
+/// m_i = sum w m;  (mv)_i = sum w m (v + C (x_i - x_p));  f_i = -sum V sigma grad w.
+namespace flowslide::mpm {
+
+/// What goes to the grid beside mass: the points' momentum and force, their momentum alone, or that
+/// of a given velocity without an affine field.
+enum class Scatter { force, momentum, velocity };
+template <int Dim>
+using TileVelocity = std::array<std::vector<double>, Dim>;  ///< per point of the tile [m/s]
+
+/// What points give to their nodes, one record of node sums per point: node (i, j) receives
+/// w_i w_j (a + i b_0 + j b_1) + g_i w_j f_0 + w_i g_j f_1. The first direction is kept as a (with
+/// f_0 in the lanes of the force) and b_0, the others as b and f in one record.
+template <int Dim>
+struct Contributions {
+  NodeVector a[Pack::lanes], b[Pack::lanes], other[Dim - 1][Pack::lanes];
+};
+
+template <int Dim, class Basis, Scatter kScatter>
+[[gnu::always_inline]] inline void contributions(const Points<Dim>& p, std::int32_t q, int count,
+                                                 const double* mean_change,
+                                                 const double* const* velocity,
+                                                 const Stencil<Dim, Basis>& s, double h,
+                                                 Contributions<Dim>& out) noexcept {
+  using L = NodeLayout<Dim>;
+  const Pack m = load_pack(p.mass.data() + q, count);
+  Pack a[kNodeLanes], b[Dim][kNodeLanes];
+  for (Pack& x : a) x = 0.0;
+  for (auto& direction : b)
+    for (Pack& x : direction) x = 0.0;
+  a[L::mass] = m;
+  unroll<Dim>([&](auto d) {
+    if constexpr (kScatter == Scatter::velocity) {
+      a[L::momentum + d] = m * load_pack(velocity[d], count);
+    } else {
+      Pack u = load_pack(p.v[d].data() + q, count);
+      unroll<Dim>([&](auto e) {
+        const Pack c = load_pack(p.c[Dim * d + e].data() + q, count);
+        u += c * (s.r[e] * h);
+        b[e][L::momentum + d] = m * c * h;
+      });
+      a[L::momentum + d] = m * u;
+    }
+  });
+  if constexpr (kScatter == Scatter::force) {
+    // Gradients of the stencil are per cell.
+    const Pack minus_v = load_pack(p.volume.data() + q, count) * (-1.0 / h);
+    const Pack mean = load_pack(mean_change, count);
+    unroll<Dim>([&](auto d) {
+      unroll<Dim>([&](auto e) {
+        constexpr int voigt[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+        Pack sigma = load_pack(p.sigma[voigt[d][e]].data() + q, count);
+        if constexpr (d == e) sigma += mean;
+        (e == 0 ? a : b[e])[L::force + d] = minus_v * sigma;
+      });
+    });
+  }
+  transpose(a, out.a);
+  transpose(b[0], out.b);
+  for (int e = 1; e < Dim; ++e) transpose(b[e], out.other[e - 1]);
+}
+
+/// Weights and gradients of the points of a pack, lane by lane.
+template <int Dim, class Basis>
+struct LaneStencil {
+  alignas(64) double w[Dim][Basis::nodes][Pack::lanes];
+  alignas(64) double g[Dim][Basis::nodes][Pack::lanes];
+  explicit LaneStencil(const Stencil<Dim, Basis>& s) noexcept {
+    unroll<Dim>([&](auto d) {
+      unroll<Basis::nodes>([&](auto i) {
+        store_pack(w[d][i], s.w[d][i], Pack::lanes);
+        store_pack(g[d][i], s.g[d][i], Pack::lanes);
+      });
+    });
+  }
+};
+
+/// What point `k` of a pack gives to the nodes of its stencil; `target(n)` is node n.
+template <int Dim, class Basis, class Target>
+void give_to_nodes(const LaneStencil<Dim, Basis>& s, const Contributions<Dim>& give, int k,
+                   Target&& target) noexcept {
+  constexpr int N = Basis::nodes;
+  const auto& w = s.w;
+  const auto& g = s.g;
+  NodeVector row[N], column[N];
+  unroll<N>([&](auto i) {
+    row[i] = weight_and_gradient<Dim>(w[0][i][k], g[0][i][k]) * give.a[k];
+    if constexpr (i > 0) row[i] += (double(i) * w[0][i][k]) * give.b[k];
+  });
+  unroll<N>([&](auto j) {
+    column[j] = weight_and_gradient<Dim>(double(j) * w[1][j][k], g[1][j][k]) * give.other[0][k];
+  });
+  if constexpr (Dim == 2) {
+    unroll<N>([&](auto j) {
+      unroll<N>([&](auto i) {
+        target(std::integral_constant<int, i + N * j>{}) +=
+            w[1][j][k] * row[i] + w[0][i][k] * column[j];
+      });
+    });
+  } else {
+    unroll<N>([&](auto l) {
+      const double wz = w[Dim - 1][l][k];
+      const NodeVector layer =
+          weight_and_gradient<Dim>(double(l) * wz, g[Dim - 1][l][k]) * give.other[Dim - 2][k];
+      unroll<N>([&](auto j) {
+        const double wy = w[1][j][k], wyz = wy * wz;
+        const NodeVector rest = wz * column[j] + wy * layer;
+        unroll<N>([&](auto i) {
+          target(std::integral_constant<int, i + N * j + N * N * l>{}) +=
+              wyz * row[i] + w[0][i][k] * rest;
+        });
+      });
+    });
+  }
+}
+
+/// The points of a tile into its `window` (kWindowNodes). With Scatter::force `mean_change` is
+/// added to the normal stresses of each point of the tile: what F-bar does to the force. With
+/// Scatter::velocity `velocity` is what the points have.
+template <int Dim, class Basis, Scatter kScatter>
+[[gnu::flatten]] void scatter_tile(const Points<Dim>& p, const Tile<Dim>& tile,
+                                   const double* mean_change, const TileVelocity<Dim>* velocity,
+                                   const Grid<Dim>& grid, NodeVector* window) noexcept {
+  constexpr int N = Basis::nodes, W = kLocalWidth<Dim, Basis>, T = power<Dim>(N);
+  // Sums of the nodes of one point stay in registers while points of the same cell follow.
+  constexpr bool kHold = T <= 16;
+  std::memset(static_cast<void*>(window), 0, sizeof(NodeVector) * kWindowNodes<Dim, Basis>);
+  constexpr auto offset = [](int n) { return n % N + W * (n / N % N) + W * W * (n / (N * N)); };
+  const double h = grid.h, inverse = 1.0 / h;
+  const std::array<double, Dim> corner = window_corner<Dim>(tile);
+
+  NodeVector held[kHold ? T : 1];
+  std::int32_t current = -1;
+  for (std::int32_t q = tile.first; q < tile.last; q += Pack::lanes) {
+    const int count = std::min<std::int32_t>(Pack::lanes, tile.last - q);
+    Stencil<Dim, Basis> s;
+    evaluate_stencil<Dim, Basis>(p, q, count, grid, inverse, corner, s);
+    Contributions<Dim> give;
+    const std::int32_t in_tile = q - tile.first;
+    const double* from[Dim] = {};
+    if constexpr (kScatter == Scatter::velocity)
+      for (int d = 0; d < Dim; ++d) from[d] = (*velocity)[d].data() + in_tile;
+    contributions<Dim, Basis, kScatter>(
+        p, q, count, kScatter == Scatter::force ? mean_change + in_tile : nullptr, from, s, h,
+        give);
+    const LaneStencil<Dim, Basis> lanes(s);
+    for (int k = 0; k < count; ++k) {
+      NodeVector* at = window + s.at[k];
+      if constexpr (kHold) {
+        if (s.at[k] != current) {
+          if (current >= 0) unroll<T>([&](auto n) { window[current + offset(n)] = held[n]; });
+          unroll<T>([&](auto n) { held[n] = at[offset(n)]; });
+          current = s.at[k];
+        }
+      }
+      const auto target = [&](auto n) -> NodeVector& {
+        if constexpr (kHold)
+          return held[n];
+        else
+          return at[offset(n)];
+      };
+      give_to_nodes<Dim, Basis>(lanes, give, k, target);
+    }
+  }
+  if constexpr (kHold)
+    if (current >= 0) unroll<T>([&](auto n) { window[current + offset(n)] = held[n]; });
+}
+
+}  // namespace flowslide::mpm

@@ -1,0 +1,214 @@
+#include "mpm/run/load.hpp"
+
+#include "core/elementary.hpp"
+
+#include <cmath>
+
+namespace flowslide::mpm {
+namespace {
+
+/// F-bar pays where pressure would lock: K/G at nu = 0.4 and above.
+constexpr double kAverageRatio = 4.6;
+
+/// Depth over which a traction is handed to the points [cells]: whole rows of any lattice.
+constexpr double kTractionDepth = 2.0;
+
+SolverMaterial solver_material(const MaterialSpec& spec, const FlowConfig& config) {
+  const double scale =
+      config.softening.regularise ? config.cell / config.softening.reference_length : 1.0;
+  return std::visit(
+      [&]<class M>(const Material<M>& m) {
+        const Elasticity e = M::elasticity(m.params);
+        return SolverMaterial{Typed<M>{M::constants(m.params, scale)}, e,
+                              e.bulk > kAverageRatio * e.shear};
+      },
+      from_parameters(spec.law, spec.parameters));
+}
+
+/// Start values of a material's state variables and, by name, those the particles bring.
+struct StateSource {
+  std::vector<double> defaults;
+  std::vector<const std::vector<double>*> arrays;  ///< null: default
+  std::vector<std::string_view> names;
+};
+
+StateSource state_source(const MaterialSpec& spec, const ParticleSet& particles) {
+  return std::visit(
+      [&]<class M>(const Material<M>& m) {
+        StateSource s;
+        constexpr std::size_t n = M::state_names.size();
+        static_assert(n <= kMaxState);
+        std::array<double, n> initial{};
+        if constexpr (n > 0)
+          initial = std::bit_cast<std::array<double, n>>(M::initial_state(m.params));
+        for (std::size_t i = 0; i < n; ++i) {
+          s.names.push_back(M::state_names[i]);
+          s.defaults.push_back(initial[i]);
+          const auto found = particles.history.find(std::string(M::state_names[i]));
+          const bool pore = M::state_names[i] == "pore_pressure";
+          s.arrays.push_back(found != particles.history.end() ? &found->second
+                             : pore                           ? &particles.pore_pressure
+                                                              : nullptr);
+        }
+        return s;
+      },
+      from_parameters(spec.law, spec.parameters));
+}
+
+/// Height of the ground under a point [m].
+template <int Dim>
+double ground_level(const Simulation<Dim>& s, std::int64_t id, std::size_t q) {
+  const auto& x = s.points.x;
+  if constexpr (Dim == 3) {
+    if (s.ground.field) {
+      const double level = s.ground.field->at(x[0][q], x[1][q]);
+      validate(!std::isnan(level),
+               "particle {} at ({:.2f}, {:.2f}) stands where the terrain has no height, see {} (it "
+               "would fall for ever) fill the gap in the file, or check terrain.origin and "
+               "terrain.heading",
+               id, x[0][q], x[1][q], s.ground.field->name_place(x[0][q], x[1][q]));
+      return level;
+    }
+  }
+  return s.ground.level(x[0][q]);
+}
+
+}  // namespace
+
+template <int Dim>
+Simulation<Dim> make_simulation(const ParticleSet& particles, const FlowConfig& config) {
+  check(particles);
+  check(config);
+  validate(particles.dim == Dim, "the particles have {} dimensions (this run has {})",
+           particles.dim, Dim);
+  validate(particles.size() > 0, "there are no particles to run");
+
+  Simulation<Dim> s;
+  s.grid.h = config.cell;
+  s.grid.origin.front() = config.grid_origin[0];
+  s.grid.origin.back() = config.grid_origin[1];
+  s.settings.basis = config.basis;
+  s.settings.transfer = config.transfer;
+  s.settings.update = config.update;
+  s.settings.flip_share = config.flip_share;
+  s.settings.fmpm_order = config.fmpm_order;
+  s.settings.gravity[Dim - 1] = -config.gravity;
+  s.settings.courant = config.courant;
+  s.settings.velocity_limit = config.velocity_limit;
+  s.settings.strain_limit = config.strain_limit;
+  s.settings.relaxation = config.relaxation;
+  s.settings.cundall = config.damping;
+  if (config.sleep) {
+    s.sleep.speed = config.sleep->speed;
+    s.sleep.after = config.sleep->after;
+  }
+  s.settings.average_volume = config.volume_average == VolumeAverage::automatic;
+  for (const auto& point : config.ground.surface) {
+    s.ground.x.push_back(point[0]);
+    s.ground.height.push_back(point[1]);
+  }
+  s.ground.friction = config.ground.friction;
+  if (config.ground.terrain) {
+    validate(Dim == 3,
+             "ground.terrain is a surface in three dimensions (this run has {}) give "
+             "ground.surface",
+             Dim);
+    const TerrainSettings& t = *config.ground.terrain;
+    s.ground.field = read_height_field(t.file.path, {t.origin, t.heading, t.level});
+  }
+  s.outlet.low.front() = config.outlet.left.value_or(s.outlet.low.front());
+  s.outlet.high.front() = config.outlet.right.value_or(s.outlet.high.front());
+  s.outlet.low.back() = config.outlet.bottom.value_or(s.outlet.low.back());
+  s.outlet.high.back() = config.outlet.top.value_or(s.outlet.high.back());
+  Absorbing<Dim>& absorbing = s.contact.absorbing;
+  absorbing.low.front() = config.absorbing.left.value_or(absorbing.low.front());
+  absorbing.high.front() = config.absorbing.right.value_or(absorbing.high.front());
+  absorbing.low.back() = config.absorbing.bottom.value_or(absorbing.low.back());
+  if (config.left_roller) s.rollers.left = *config.left_roller;
+  if (config.right_roller) s.rollers.right = *config.right_roller;
+  if (config.side_rollers) {
+    s.rollers.near = (*config.side_rollers)[0];
+    s.rollers.far = (*config.side_rollers)[1];
+    if (config.extrude && config.extrude->sides == Sides::rough)
+      s.rollers.side_friction = config.ground.friction;
+  }
+
+  std::vector<StateSource> sources;
+  for (const MaterialSpec& spec : particles.materials) {
+    s.materials.push_back(solver_material(spec, config));
+    sources.push_back(state_source(spec, particles));
+  }
+
+  s.largest_density.assign(s.materials.size(), 0.0);
+  const std::size_t n = particles.size();
+  Points<Dim>& p = s.points;
+  visit_arrays(p, [&](auto& array) { array.assign(n, {}); });
+  double density = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (int d = 0; d < Dim; ++d) {
+      p.x[d][i] = particles.position[i][d];
+      p.v[d][i] = particles.velocity[i][d];
+    }
+    for (int k = 0; k < kVoigt<Dim>; ++k) p.sigma[k][i] = particles.stress[i][k];
+    p.mass[i] = particles.mass[i];
+    p.volume[i] = particles.volume[i];
+    p.material[i] = particles.material[i];
+    p.index[i] = static_cast<std::int32_t>(i);
+    density = std::max(density, p.mass[i] / p.volume[i]);
+    double& largest = s.largest_density[p.material[i]];
+    largest = std::max(largest, p.mass[i] / p.volume[i]);
+    const StateSource& source = sources[p.material[i]];
+    for (std::size_t k = 0; k < source.names.size(); ++k) {
+      const double value = source.arrays[k] ? (*source.arrays[k])[i] : source.defaults[k];
+      p.state[k][i] = value;
+      validate(std::isfinite(value),
+               "particle {} of material '{}' has no '{}' (its law needs it) give it in the "
+               "material or per particle",
+               particles.id[i], particles.materials[p.material[i]].name, source.names[k]);
+    }
+    const double depth = ground_level(s, particles.id[i], i) - p.x[Dim - 1][i];
+    validate(!(depth > 0.5 * config.cell),
+             "particle {} at ({:.2f}, {:.2f}) lies {:.2f} m inside the ground (it would be thrown "
+             "out) lower "
+             "ground.surface or raise the transfer box",
+             particles.id[i], p.x[0][i], p.x[Dim - 1][i], depth);
+    for (int d = 0; d < Dim; ++d)
+      validate(p.x[d][i] >= absorbing.low[d] && p.x[d][i] <= absorbing.high[d],
+               "particle {} at ({:.2f}, {:.2f}) lies beyond an absorbing plane (nothing would hold "
+               "it there) move the plane or the transfer box",
+               particles.id[i], p.x[0][i], p.x[Dim - 1][i]);
+    for (int d = 0; d < Dim; ++d)
+      validate(p.x[d][i] >= s.outlet.low[d] && p.x[d][i] <= s.outlet.high[d],
+               "particle {} at ({:.2f}, {:.2f}) lies beyond the outlet (it would leave before the "
+               "run begins) move the outlet or the transfer box",
+               particles.id[i], p.x[0][i], p.x[Dim - 1][i]);
+    const double modulus =
+        wave_modulus(s.materials[p.material[i]].elastic, s.averages(p.material[i]));
+    s.last.max_wave2 = std::max(s.last.max_wave2, modulus * p.volume[i] / p.mass[i]);
+    double speed2 = 0.0;
+    for (const auto& v : p.v) speed2 += v[i] * v[i];
+    s.last.max_speed2 = std::max(s.last.max_speed2, speed2);
+  }
+  if constexpr (Dim == 2) {
+    for (std::size_t i = 0; i < config.tractions.size(); ++i) {
+      const TractionSettings& t = config.tractions[i];
+      const std::size_t carriers =
+          add_traction({t.from, t.to, t.pressure, t.shear, t.begin, t.ramp},
+                       kTractionDepth * config.cell, p, s.loads);
+      validate(carriers > 0,
+               "tractions: no particle lies within {} cells to the right of stretch {} (nothing "
+               "carries it) put it on the surface of the soil, which lies on the right of the way "
+               "from `from` to `to`",
+               kTractionDepth, i + 1);
+    }
+  } else {
+    validate(config.tractions.empty(), "tractions act in plane strain (this run has 3 dimensions)");
+  }
+  s.full_mass = density * pow(config.cell, Dim);
+  return s;
+}
+
+template Simulation<2> make_simulation<2>(const ParticleSet&, const FlowConfig&);
+template Simulation<3> make_simulation<3>(const ParticleSet&, const FlowConfig&);
+
+}  // namespace flowslide::mpm

@@ -1,0 +1,56 @@
+#pragma once
+#include "mpm/solver/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+/// How far a step takes the points, looked at when the forces are known and nothing has moved.
+/// docs/theory/time-step.md, section Acceleration
+namespace flowslide::mpm {
+
+/// By how much acceleration may exceed what the last step's speeds and rates were to give.
+inline constexpr double kWayOverLimit = 2.5, kStrainOverLimit = 4.0;
+/// Beyond these the step makes no sense, however it came to it: cells, and |L| dt.
+inline constexpr double kFarthestWay = 1.0, kLargestStrain = 0.9;
+
+/// True where the changes of the nodes' velocities are so small that no point needs to be looked
+/// at. Called by every thread, with the same answer.
+template <int Dim>
+bool gains_little(const Simulation<Dim>& s, const StepScratch<Dim>& scratch) noexcept {
+  const double limit = 0.5 * std::min(s.settings.velocity_limit, s.settings.strain_limit);
+  const double gain = limit * s.grid.h / s.dt;
+  return std::all_of(scratch.tile.begin(), scratch.tile.end(),
+                     [&](const TileScratch<Dim>& t) { return t.gain2 <= gain * gain; });
+}
+
+/// Written so that what is not a number is the farthest.
+inline Way farther(const Way& a, const Way& b) noexcept {
+  return {a.length <= b.length || std::isnan(b.length) ? b.length : a.length,
+          a.strain <= b.strain || std::isnan(b.strain) ? b.strain : a.strain};
+}
+
+/// Of the first `count` points in scratch.velocity and scratch.gradient.
+template <int Dim>
+Way way_of(const TileScratch<Dim>& scratch, std::int32_t count, double dt, double h) noexcept {
+  Way most;
+  for (std::int32_t k = 0; k < count; ++k) {
+    double speed2 = 0.0, rate2 = 0.0;
+    for (const auto& v : scratch.velocity) speed2 += v[k] * v[k];
+    for (const auto& l : scratch.gradient) rate2 += l[k] * l[k];
+    most = farther(most, {dt * std::sqrt(speed2) / h, dt * std::sqrt(rate2)});
+  }
+  return most;
+}
+
+/// 1 where a step may go this way, else by how much to shorten it; not a number if none would do.
+template <int Dim>
+double allowed_share(const Simulation<Dim>& s, const Way& way) noexcept {
+  const double length = std::min(kWayOverLimit * s.settings.velocity_limit, kFarthestWay);
+  const double strain = std::min(kStrainOverLimit * s.settings.strain_limit, kLargestStrain);
+  if (way.length <= length && way.strain <= strain) return 1.0;
+  if (std::isnan(way.length) || std::isnan(way.strain)) return std::nan("");
+  const double share = std::min(length / way.length, strain / way.strain);
+  return std::clamp(0.9 * std::sqrt(share), 0.1, 0.7);
+}
+
+}  // namespace flowslide::mpm

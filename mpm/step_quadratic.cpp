@@ -1,8 +1,0 @@
-#include "mpm/step.hpp"
-
-namespace flowslide::mpm {
-
-template void step<2, QuadraticBSpline>(Simulation<2>&, StepScratch<2>&);
-template void step<3, QuadraticBSpline>(Simulation<3>&, StepScratch<3>&);
-
-}  // namespace flowslide::mpm

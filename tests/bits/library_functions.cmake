@@ -1,0 +1,26 @@
+# cmake -DNM=... -DARCHIVES=a;b -P library_functions.cmake
+# Fails if an object in the archives uses a function of the C library that rounds as the processor
+# likes. core/elementary.hpp has what may be used.
+set(functions "exp|exp2|exp10|expm1|log|log2|log10|log1p|pow|sin|cos|sincos|tan|asin|acos|atan|atan2")
+string(APPEND functions "|sinh|cosh|tanh|asinh|acosh|atanh|cbrt|hypot|erf|erfc|tgamma|lgamma|fma")
+string(APPEND functions "|cexp|clog|cpow|cabs|carg|csin|ccos|csqrt|j0|j1|jn|y0|y1|yn")
+set(uses 0)
+foreach(archive IN LISTS ARCHIVES)
+  execute_process(COMMAND "${NM}" -u "${archive}" OUTPUT_VARIABLE symbols RESULT_VARIABLE failed)
+  if(failed)
+    message(FATAL_ERROR "${NM} cannot read ${archive}")
+  endif()
+  string(REPLACE "\n" ";" symbols "${symbols}")
+  foreach(line IN LISTS symbols)
+    if(line MATCHES "^(.*\\.o):$")
+      set(object "${CMAKE_MATCH_1}")
+    elseif(line MATCHES "^ +U ((${functions})[fl]?)$")
+      message("${object}: ${CMAKE_MATCH_1} (it rounds differently from processor to processor) "
+              "take that of core/elementary.hpp")
+      math(EXPR uses "${uses} + 1")
+    endif()
+  endforeach()
+endforeach()
+if(uses GREATER 0)
+  message(FATAL_ERROR "${uses} uses of the C library's elementary functions")
+endif()

@@ -1,0 +1,42 @@
+# cmake -DBUILD=... -DCPACK=... -DARCH=... -P package.cmake
+# Packs what is built. A build for this machine's processor must be refused.
+set(folder "${BUILD}/package-test")
+file(REMOVE_RECURSE "${folder}")
+
+function(pack)
+  execute_process(COMMAND "${CPACK}" -G DEB -B "${folder}" --config "${BUILD}/CPackConfig.cmake" ${ARGN}
+                  OUTPUT_VARIABLE out ERROR_VARIABLE out RESULT_VARIABLE result)
+  set(failed ${result} PARENT_SCOPE)
+  set(output "${out}" PARENT_SCOPE)
+endfunction()
+
+if(ARCH STREQUAL "native")
+  pack()
+  if(NOT failed OR NOT output MATCHES "illegal instruction")
+    message(FATAL_ERROR "a package for other machines was made of a native build:\n${output}")
+  endif()
+endif()
+pack(-D CPACK_FLOWSLIDE_FOR_THIS_MACHINE=ON)
+file(GLOB packages "${folder}/*.deb")
+list(LENGTH packages number)
+if(failed OR NOT number EQUAL 1)
+  message(FATAL_ERROR "${number} packages instead of one:\n${output}")
+endif()
+
+execute_process(COMMAND dpkg-deb --field "${packages}" OUTPUT_VARIABLE fields COMMAND_ERROR_IS_FATAL ANY)
+foreach(field "Package: flowslide" "Depends: .*libhdf5-103" "Depends: .*libyaml-cpp" "Depends: .*libc6"
+              "Recommends: python3-matplotlib" "Section: science")
+  if(NOT fields MATCHES "${field}")
+    message(FATAL_ERROR "the package lacks '${field}':\n${fields}")
+  endif()
+endforeach()
+execute_process(COMMAND dpkg-deb --contents "${packages}" OUTPUT_VARIABLE contents COMMAND_ERROR_IS_FATAL ANY)
+foreach(name usr/bin/flowslide usr/share/man/man1/flowslide.1 usr/share/flowslide/workflows/mochikoshi.yaml)
+  if(NOT contents MATCHES "\\./${name}\n")
+    message(FATAL_ERROR "${name} is not in the package:\n${contents}")
+  endif()
+endforeach()
+if(contents MATCHES "\\.(a|hpp)\n")
+  message(FATAL_ERROR "the package of the program holds libraries or headers:\n${contents}")
+endif()
+file(REMOVE_RECURSE "${folder}")

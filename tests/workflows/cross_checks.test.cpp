@@ -1,0 +1,381 @@
+#include "workflows/stages/cross_checks.hpp"
+
+#include "core/check.hpp"
+#include "tests/support/scratch.hpp"
+
+#include <functional>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+using namespace flowslide;
+using Catch::Contains;
+
+namespace {
+
+/// A dam 30 m high and 120 m long, of material 1 up to x = 100 and 2 beyond, in squares of 10 m.
+SectionMesh dam() {
+  SectionMesh s;
+  QuadMesh& m = s.mesh;
+  for (int j = 0; j <= 3; ++j)
+    for (int i = 0; i <= 12; ++i) {
+      m.nodes.push_back({10.0 * i, 10.0 * j});
+      m.node_tags.push_back(std::ssize(m.node_tags) + 1);
+    }
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 12; ++i) {
+      const std::int32_t n = 13 * j + i;
+      m.elements.push_back({n, n + 1, n + 14, n + 13});
+      m.element_tags.push_back(std::ssize(m.element_tags) + 1);
+      m.element_material.push_back(i < 10 ? 1 : 2);
+    }
+  s.materials = {{"tailings", 1}, {"dam", 2}};
+  return s;
+}
+
+MapMaterial soil(std::vector<int> tags, double modulus = 20e6) {
+  MapMaterial m;
+  m.tags = std::move(tags);
+  m.density = 1900.0;
+  m.law.of<LinearElastic>() = LinearElastic::Params{modulus, 0.3};
+  return m;
+}
+
+MapConfig map_config() {
+  MapConfig c;
+  c.cell = 1.25;
+  c.materials = {{"tailings", soil({1})}, {"dam", soil({2})}};
+  return c;
+}
+
+FlowConfig flow_config() {
+  FlowConfig c;
+  c.cell = 1.25;
+  c.toe = 120.0;
+  c.end = 10.0;
+  c.left_roller = 0.0;
+  return c;
+}
+
+/// What a rule says about the dam after a change; a control must say nothing.
+struct Answer {
+  std::string errors, warnings;
+};
+
+Answer answer(const Findings& found) {
+  return {fmt::format("{}", fmt::join(found.errors, "\n")),
+          fmt::format("{}", fmt::join(found.warnings, "\n"))};
+}
+
+Answer ask(const std::function<void(FlowConfig&)>& change,
+           void (*rule)(const FlowConfig&, const Soil&, Findings&)) {
+  FlowConfig c = flow_config();
+  Findings control, found;
+  rule(c, soil_of(dam(), map_config()), control);
+  CHECK(control.errors.empty());
+  CHECK(control.warnings.empty());
+  change(c);
+  rule(c, soil_of(dam(), map_config()), found);
+  return answer(found);
+}
+
+}  // namespace
+
+TEST_CASE("The soil of a transfer is what its box and its tags hold") {
+  Soil s = soil_of(dam(), map_config());
+  CHECK(s.area == Approx(3600.0));
+  CHECK(s.counted.right == 120.0);
+  MapConfig c = map_config();
+  c.materials["dam"].counts_for_runout = false;
+  c.box = {10.0, 200.0, 5.0, 200.0};
+  s = soil_of(dam(), c);
+  CHECK(s.counted.right == 100.0);
+  CHECK(s.all.left == 10.0);
+  CHECK(s.all.height() == 20.0);  // the lowest row has its centres on the edge of the box
+}
+
+TEST_CASE("The toe is the end of the section") {
+  const auto at = [](double x) { return ask([x](FlowConfig& c) { c.toe = x; }, check_toe); };
+  CHECK_THAT(at(75e3).errors, Contains("74880 m beyond the downstream end"));
+  CHECK_THAT(at(200.0).warnings, Contains("80 m beyond") && Contains("reported as 0"));
+  CHECK(at(140.0).warnings.empty());
+  CHECK_THAT(at(-75.0).errors, Contains("195 m inside the soil"));
+  CHECK_THAT(at(110.0).warnings, Contains("10 m inside the soil"));
+  CHECK(at(119.0).warnings.empty());
+}
+
+TEST_CASE("Rollers and outlets stand outside the soil") {
+  const auto with = [](auto change) { return ask(change, check_edges); };
+  CHECK_THAT(with([](FlowConfig& c) { c.left_roller = 30.0; }).errors, Contains("left_roller"));
+  CHECK_THAT(with([](FlowConfig& c) { c.left_roller = -30.0; }).warnings, Contains("stands free"));
+  CHECK_THAT(with([](FlowConfig& c) { c.right_roller = 90.0; }).errors, Contains("right_roller"));
+  CHECK_THAT(with([](FlowConfig& c) { c.right_roller = 120.0; }).warnings,
+             Contains("nothing can pass the toe"));
+  CHECK(with([](FlowConfig& c) { c.right_roller = 300.0; }).errors.empty());
+  CHECK_THAT(with([](FlowConfig& c) { c.outlet.right = 100.0; }).errors, Contains("outlet.right"));
+  CHECK_THAT(with([](FlowConfig& c) { c.outlet.bottom = 5.0; }).errors, Contains("outlet.bottom"));
+  CHECK_THAT(with([](FlowConfig& c) {
+               c.outlet.right = 130.0;
+               c.toe = 130.0;
+             }).errors,
+             Contains("runout would be 0"));
+  CHECK(with([](FlowConfig& c) { c.outlet.right = 500.0; }).errors.empty());
+}
+
+TEST_CASE("The ground lies under the soil") {
+  const auto on = [](std::vector<std::vector<double>> surface) {
+    return ask([&](FlowConfig& c) { c.ground.surface = surface; }, check_ground);
+  };
+  CHECK_THAT(on({{0.0, 20.0}}).errors, Contains("15 m below it"));
+  CHECK_THAT(on({{0.0, -40.0}}).warnings, Contains("hangs about 45 m above"));
+  CHECK(on({{0.0, -10.0}, {120.0, 0.0}, {200.0, -5.0}}).errors.empty());
+  CHECK_THAT(ask([](FlowConfig& c) { c.gravity = 1e4; }, check_ground).warnings,
+             Contains("not that of the earth"));
+}
+
+TEST_CASE("Cells too coarse for the soil are refused, coarse ones warned about") {
+  const auto with = [](double cell) {
+    return ask([cell](FlowConfig& c) { c.cell = cell; }, check_cells);
+  };
+  for (const double cell : {10.0, 20.0, 40.0})
+    CHECK_THAT(with(cell).errors, Contains("at most 7.5 m"));
+  CHECK_THAT(with(5.0).warnings, Contains("6 cells over the height"));
+  CHECK(with(2.5).warnings.empty());
+}
+
+TEST_CASE("Cells of transfer and runout agree") {
+  const auto with = [](double cell, double origin = 0.0) {
+    FlowConfig c = flow_config();
+    c.cell = cell;
+    c.grid_origin = {origin, 0.0};
+    Findings found;
+    compare_cells(c, map_config(), found);
+    return answer(found);
+  };
+  CHECK(with(1.25, 12.5).warnings.empty());
+  CHECK_THAT(with(0.5).errors, Contains("0.8 points per cell"));
+  CHECK_THAT(with(2.5).warnings, Contains("4 of them per cell"));
+  CHECK_THAT(with(1.25, 0.5).warnings, Contains("grid_origin"));
+}
+
+TEST_CASE("More points than the memory holds are refused") {
+  const auto with = [](double cell, double width) {
+    MapConfig c = map_config();
+    c.cell = cell;
+    Findings found;
+    check_memory(c, soil_of(dam(), c), width, 8e9, found);
+    return answer(found);
+  };
+  CHECK(with(1.25, kUnset).errors.empty());
+  CHECK_THAT(with(0.01, kUnset).errors, Contains("1.4e+08 points"));
+  CHECK_THAT(with(0.25, 100.0).errors, Contains("use larger cells"));
+}
+
+TEST_CASE("Materials of the transfer have plausible numbers") {
+  const auto with = [](auto change) {
+    MapConfig c = map_config();
+    Findings control, found;
+    check_map_materials(c, dam(), soil_of(dam(), c), control);
+    CHECK(control.errors.empty());
+    CHECK(control.warnings.empty());
+    change(c.materials["tailings"]);
+    check_map_materials(c, dam(), soil_of(dam(), c), found);
+    return answer(found);
+  };
+  CHECK_THAT(with([](MapMaterial& m) { m.density = 500.0; }).errors,
+             Contains("materials.tailings.density is 500 kg/m3"));
+  CHECK_THAT(with([](MapMaterial& m) { m.density = 5500.0; }).errors, Contains("5500"));
+  CHECK_THAT(with([](MapMaterial& m) { m.density = 1000.0; }).warnings, Contains("usual"));
+  CHECK_THAT(with([](MapMaterial& m) { m = soil({1}, 20.0); }).errors, Contains("youngs_modulus"));
+  CHECK_THAT(with([](MapMaterial& m) { m = soil({1}, 4e5); }).errors, Contains("pressed flat"));
+  CHECK_THAT(with([](MapMaterial& m) { m = soil({1}, 2e6); }).warnings, Contains("settle by 28 %"));
+  CHECK_THAT(with([](MapMaterial& m) { m.tags = {1, 7}; }).warnings, Contains("tag 7"));
+}
+
+TEST_CASE("Densities of one soil agree between stages") {
+  const auto with = [](double density) {
+    Findings found;
+    compare_densities(map_config(), {{1, density}, {9, 1.0}}, "fem.run", found);
+    return answer(found).warnings;
+  };
+  CHECK(with(1900.0).empty());
+  CHECK_THAT(with(1700.0), Contains("fem.run has 1700 kg/m3") && Contains("tag 1"));
+}
+
+TEST_CASE("Soils and water of the finite elements have plausible numbers") {
+  FemConfig sound;
+  sound.water.emplace().table = {{0.0, 20.0}};
+  FemMaterialConfig m;
+  m.density = 1870.0;
+  m.void_ratio = 0.99;
+  m.laws.of<LinearElastic>() = LinearElastic::Params{20e6, 0.3};
+  sound.materials["tailings"] = m;
+  const auto with = [&](auto change) {
+    FemConfig c = sound;
+    Findings control, found;
+    check_fem_soils(c, control);
+    CHECK(control.errors.empty());
+    CHECK(control.warnings.empty());
+    change(c, c.materials["tailings"]);
+    check_fem_soils(c, found);
+    return answer(found);
+  };
+  using M = FemMaterialConfig;
+  CHECK_THAT(with([](FemConfig&, M& x) { x.density = 500.0; }).errors, Contains("density is 500"));
+  // With a void ratio of 0.3 grains of 2.13 t/m3, with 2.5 of 4.05 t/m3.
+  CHECK_THAT(with([](FemConfig&, M& x) { x.void_ratio = 0.3; }).warnings, Contains("grains"));
+  CHECK_THAT(with([](FemConfig&, M& x) { x.void_ratio = 9.0; }).errors, Contains("9700 kg/m3"));
+  CHECK_THAT(with([](FemConfig&, M& x) { x.laws.of<LinearElastic>()->youngs_modulus = 20.0; }).errors,
+             Contains("youngs_modulus"));
+  CHECK_THAT(with([](FemConfig& c, M&) { c.water->bulk_modulus = 2.2e3; }).errors,
+             Contains("water.bulk_modulus"));
+  CHECK_THAT(with([](FemConfig& c, M&) { c.water->density = 1.0; }).errors,
+             Contains("water.density"));
+  CHECK_THAT(with([](FemConfig& c, M&) { c.gravity.acceleration = 50.0; }).warnings,
+             Contains("not that of the earth"));
+  // Dry soil of 1400 kg/m3: saturated it would have grains of 1.8 t/m3.
+  CHECK(with([](FemConfig&, M& x) {
+          x.density = 1400.0;
+          x.drained = true;
+        }).warnings.empty());
+}
+
+TEST_CASE("Water stands in the section") {
+  const auto at = [](double level) {
+    FemConfig c;
+    c.water.emplace().table = {{0.0, level}, {120.0, 0.0}};
+    Findings found;
+    check_water(c, dam().mesh, found);
+    return answer(found);
+  };
+  CHECK(at(30.0).warnings.empty());
+  CHECK_THAT(at(1e9).errors, Contains("more than the section is high"));
+  CHECK_THAT(at(35.0).warnings, Contains("5 m above the highest point"));
+  FemConfig dry;
+  dry.water.emplace().table = {{0.0, -5.0}};
+  Findings found;
+  check_water(dry, dam().mesh, found);
+  CHECK_THAT(answer(found).warnings, Contains("cannot liquefy"));
+}
+
+TEST_CASE("Residual strength is a small share of the stress it belongs to") {
+  const auto with = [](double stress, double strength) {
+    Findings found;
+    check_strength({.table = {{stress, strength}}}, found);
+    return answer(found);
+  };
+  CHECK(with(25e3, 3e3).warnings.empty());
+  CHECK(with(5e3, 4e3).warnings.empty());  // near the surface
+  CHECK_THAT(with(25e3, 3e6).errors, Contains("120 times the stress"));
+  CHECK_THAT(with(25e3, 15e3).warnings, Contains("0.6 times"));
+  CHECK_THAT(with(25e3, 3.0).warnings, Contains("0.00012 times"));
+}
+
+TEST_CASE("Depths count from a pond above the soil") {
+  const auto at = [](double y) {
+    ZoneConfig c;
+    c.liquefiable = {1};
+    c.pond_surface = y;
+    Findings found;
+    check_pond(c, dam().mesh, found);
+    return answer(found).warnings;
+  };
+  CHECK(at(30.0).empty());
+  CHECK_THAT(at(0.0), Contains("all depths of liquefaction will be 0"));
+  CHECK_THAT(at(90.0), Contains("60 m above"));
+}
+
+TEST_CASE("The shaking ends by the rule that chooses the transfer") {
+  StopAtTransferConfig stop;
+  ZoneConfig zone;
+  stop.liquefiable = zone.liquefiable = {1};
+  stop.pond_surface = zone.pond_surface = 30.0;
+  Findings control, found;
+  compare_transfer_rules(stop, zone, control);
+  CHECK(control.warnings.empty());
+  stop.r_u.threshold = 0.9;
+  compare_transfer_rules(stop, zone, found);
+  CHECK_THAT(answer(found).warnings, Contains("r_u.threshold 0.9 -> 0.7"));
+}
+
+TEST_CASE("Sections have the size of sections") {
+  const auto with = [](double factor, double far = 0.0) {
+    SectionMesh s = dam();
+    for (Vec2& p : s.mesh.nodes) p = {factor * p[0], factor * p[1]};
+    if (far != 0.0) s.mesh.nodes.back() = {far, 30.0};
+    Findings found;
+    check_size(s.mesh, found);
+    return answer(found);
+  };
+  CHECK(with(1.0).warnings.empty());
+  CHECK_THAT(with(1.0, 1e300).errors, Contains("misplaced node"));
+  CHECK_THAT(with(1000.0).errors, Contains("another unit of length"));
+  CHECK_THAT(with(100.0).warnings, Contains("more than 10 km"));
+  CHECK_THAT(with(1e-3).warnings, Contains("less than half a metre"));
+}
+
+TEST_CASE("Terrain lies under the dam and has heights there") {
+  const Scratch scratch;
+  const auto rows = [](const std::string& row) {
+    std::string text;
+    for (int i = 0; i < 30; ++i) text += row + "\n";
+    return text;
+  };
+  std::string level, gap;
+  for (int i = 0; i < 100; ++i) {
+    level += "100 ";
+    gap += i == 30 || i == 80 ? "-9999 " : "100 ";
+  }
+  const std::string header =
+      "ncols 100\nnrows 30\nxllcorner 500000\nyllcorner 7000000\ncellsize 10\n";
+  scratch.write("level.asc", header + rows(level));
+  scratch.write("gap.asc", header + rows(gap));
+  const auto ask_about = [&](const char* file, std::array<double, 2> origin,
+                             double height = 100.0) {
+    FlowConfig c = flow_config();
+    c.extrude = ExtrudeSettings{.width = 40.0};
+    c.ground.terrain = TerrainSettings{{scratch / file}, origin, 0.0, height};
+    Findings found;
+    check_terrain(c, soil_of(dam(), map_config()), found);
+    return answer(found);
+  };
+  const std::array<double, 2> there{500100.0, 7000100.0};
+  CHECK(ask_about("level.asc", there).errors.empty());
+  CHECK(ask_about("level.asc", there).warnings.empty());
+  CHECK_THAT(ask_about("level.asc", {0.0, 0.0}).errors,
+             Contains("x = 0 to 120 m lies 499885 m west and 6999965 m south of the map"));
+  CHECK_THAT(ask_about("level.asc", {500600.0, 7000100.0}).warnings, Contains("ends 290 m"));
+  CHECK_THAT(ask_about("level.asc", there, 50.0).errors, Contains("below the terrain"));
+  CHECK_THAT(ask_about("level.asc", there, 150.0).warnings, Contains("`level`"));
+  CHECK_THAT(ask_about("gap.asc", {500250.0, 7000100.0}).errors,
+             Contains("the terrain has no height"));
+  CHECK_THAT(ask_about("gap.asc", {500400.0, 7000100.0}).warnings, Contains("60 of 3000 heights"));
+}
+
+TEST_CASE("Every element of a transfer has a material, and soil that liquefies a law for it") {
+  ZoneConfig zone;
+  zone.liquefiable = {1};
+  zone.zone = ZoneExtent::automatic;
+  const auto with = [&](auto change) {
+    MapConfig c = map_config();
+    c.materials["tailings"].liquefied = ResidualStrength::Params{.youngs_modulus = 20e6,
+                                                                 .poisson_ratio = 0.45,
+                                                                 .strength = {},
+                                                                 .soft_strength = {}};
+    Findings control, found;
+    check_map_tags(c, dam(), zone, control);
+    CHECK(control.errors.empty());
+    CHECK(control.warnings.empty());
+    change(c);
+    check_map_tags(c, dam(), zone, found);
+    return answer(found);
+  };
+  CHECK_THAT(with([](MapConfig& c) { c.materials.erase("dam"); }).errors,
+             Contains("element 11 has the material tag 2"));
+  CHECK(with([](MapConfig& c) {
+          c.materials.erase("dam");
+          c.box = {0.0, 100.0, 0.0, 30.0};
+        }).errors.empty());
+  CHECK_THAT(with([](MapConfig& c) { c.materials["tailings"].liquefied.reset(); }).warnings,
+             Contains("tag 1 can liquefy"));
+}

@@ -1,0 +1,118 @@
+#include "transfer/zone/zone.hpp"
+
+#include "core/check.hpp"
+#include "transfer/zone/zone_extent.hpp"
+#include "transfer/zone/zone_r_u.hpp"
+#include "transfer/zone/zone_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flowslide {
+namespace {
+
+/// r_u of the frame, or the largest up to it; zero in the gravity state.
+std::vector<double> r_u_of_zone(const FemHistory& history, const RuReference& reference, int frame,
+                                RuOverTime over_time) {
+  const QuadMesh& mesh = history.mesh();
+  if (frame < 0) return r_u_at_nodes(mesh, reference, reference.u_0, 0.0);
+  std::vector<double> r_u;
+  for (int i = over_time == RuOverTime::maximum ? 0 : frame; i <= frame; ++i) {
+    const FemFrame f = history.frame(static_cast<std::size_t>(i));
+    const std::vector<double> now = r_u_at_nodes(mesh, reference, f.pore_pressure, f.time);
+    if (r_u.empty()) r_u = now;
+    for (std::size_t n = 0; n < r_u.size(); ++n) {
+      if (now[n] > r_u[n]) r_u[n] = now[n];
+    }
+  }
+  return r_u;
+}
+
+void flag_elements(LiquefactionZone& zone, const QuadMesh& mesh, const ZoneParts& parts,
+                   const ZoneShape& shape, const ZoneConfig& config) {
+  zone.liquefied.assign(mesh.num_elements(), 0);
+  zone.strength.assign(mesh.num_elements(), kUnset);
+  zone.layer.assign(mesh.num_elements(), -1);
+  zone.lower_boundary = shape.lower_boundary;
+  std::size_t liquefied = 0;
+  std::size_t clamped = 0;
+  for (const std::int32_t element : parts.soil) {
+    const auto e = static_cast<std::size_t>(element);
+    const Vec2 centre = centroid(corners(mesh, mesh.nodes, e));
+    if (config.zone != ZoneExtent::all && !contains(shape, centre)) continue;
+    const LayerStrength s = strength_at(config.strength, zone.sigma_v0[e]);
+    zone.liquefied[e] = 1;
+    zone.strength[e] = s.strength;
+    zone.layer[e] = s.layer;
+    ++liquefied;
+    if (s.clamped) ++clamped;
+  }
+  if (liquefied == 0) zone.notes.emplace_back("no element has liquefied at the transfer time");
+  if (clamped > 0) {
+    zone.notes.push_back(fmt::format(
+        "{} of {} liquefied elements lie outside strength.table ({:g} to {:g} kPa): its "
+        "end values were used",
+        clamped, liquefied, config.strength.table.front()[0] * 1e-3,
+        config.strength.table.back()[0] * 1e-3));
+  }
+}
+
+/// Depth below the pond surface of the lowest node of the soil that lies in a zone given by the
+/// user.
+double depth_of_shape(const QuadMesh& mesh, const ZoneParts& parts, const ZoneShape& shape,
+                      const DepthWindow& window, const ZoneConfig& config) {
+  double depth = 0.0;
+  for (const std::int32_t e : parts.soil) {
+    for (const std::int32_t n : mesh.elements[static_cast<std::size_t>(e)]) {
+      const Vec2 p = mesh.nodes[static_cast<std::size_t>(n)];
+      if (!window.contains(p[0])) continue;
+      if (config.zone == ZoneExtent::all || contains(shape, p)) {
+        depth = std::max(depth, config.pond_surface - p[1]);
+      }
+    }
+  }
+  return depth;
+}
+
+}  // namespace
+
+LiquefactionZone find_zone(const FemHistory& history, const ZoneConfig& config,
+                           const Progress& progress) {
+  check(config);
+  const QuadMesh& mesh = history.mesh();
+  ZoneRecorder record(mesh, history.gravity(), config);
+  const std::size_t frames = history.times().size();
+  for (std::size_t i = 0; i < frames; ++i) {
+    if (progress.should_stop()) throw Interrupted("stopped while the frames were read");
+    record.append(history.frame(i));
+    progress.report(static_cast<double>(i + 1) / static_cast<double>(frames),
+                    fmt::format("{:.3g} s", history.times()[i]));
+  }
+  const ZoneParts& parts = record.parts();
+  const RuReference& reference = record.reference();
+  const TransferChoice choice = record.choose();
+  LiquefactionZone zone;
+  zone.history = record.history();
+  zone.transfer_time = choice.time;
+  zone.transfer_frame = choice.frame;
+  zone.transfer_reason = choice.reason;
+  zone.r_u_node = r_u_of_zone(history, reference, choice.frame, config.r_u.over_time);
+  zone.r_u_element = element_means(mesh, zone.r_u_node);
+  zone.sigma_v0 = reference.sigma_v0;
+  zone.notes = reference.notes;
+  const ZoneShape shape = zone_shape(config, mesh, parts.soil, zone.r_u_node);
+  flag_elements(zone, mesh, parts, shape, config);
+
+  const ZoneHistory& h = zone.history;
+  zone.window_names = h.window_names;
+  std::size_t w = 0;
+  for (const auto& [name, window] : windows_or_all(config)) {
+    zone.window_depth_max.push_back(config.zone == ZoneExtent::automatic
+                                        ? h.depth_max[w][static_cast<std::size_t>(choice.frame)]
+                                        : depth_of_shape(mesh, parts, shape, window, config));
+    ++w;
+  }
+  return zone;
+}
+
+}  // namespace flowslide

@@ -1,0 +1,151 @@
+#include "transfer/zone/zone_config.hpp"
+
+#include "core/check.hpp"
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace flowslide {
+
+template <>
+struct Schema<RuConfig> {
+  static constexpr std::string_view doc = "Excess pore-pressure ratio.";
+  static void describe(FieldVisitor& v, RuConfig& c) {
+    v.quantity("threshold", c.threshold, Dim::none, {.above = 0.0},
+               "soil has liquefied where r_u exceeds this");
+    v.choice(
+        "sigma_v0", c.sigma_v0, kSigmaSources,
+        "initial vertical effective stress at a node: mean of its elements, or element by element");
+    v.quantity("floor", c.floor, Dim::stress, {.min = 0.0},
+               "no r_u below this initial vertical effective stress");
+    v.choice("over_time", c.over_time, kRuOverTimes,
+             "the zone follows the largest r_u up to the transfer, or that of the moment");
+  }
+};
+
+template <>
+struct Schema<ZoneBox> {
+  static constexpr std::string_view doc =
+      "Part of the section that counts, without free-field columns; open where nothing is given.";
+  static void describe(FieldVisitor& v, ZoneBox& c) {
+    v.quantity("left", c.left, Dim::length, {}, "smallest x");
+    v.quantity("right", c.right, Dim::length, {}, "largest x");
+    v.quantity("bottom", c.bottom, Dim::length, {}, "smallest y");
+    v.quantity("top", c.top, Dim::length, {}, "largest y");
+  }
+};
+
+template <>
+struct Schema<ColumnConfig> {
+  static constexpr std::string_view doc = "Columns in which the automatic zone is found.";
+  static void describe(FieldVisitor& v, ColumnConfig& c) {
+    v.quantity("width", c.width, Dim::length, {.above = 0.0},
+               "width; the median width of the liquefiable elements if left out");
+    v.integer("neighbours", c.neighbours, {.min = 0, .max = 8},
+              "a liquefied node counts if at least so many of its mesh neighbours have liquefied");
+  }
+};
+
+void Schema<TransferRuleConfig>::describe(FieldVisitor& v, TransferRuleConfig& c) {
+  static constexpr std::array<FieldVisitor::Column, 2> kDensity{
+      {{"material", Dim::none}, {"density", Dim::density}}};
+  v.integers("liquefiable", c.liquefiable, "material tags of the soil that can liquefy");
+  v.quantity("pond_surface", c.pond_surface, Dim::length, {},
+             "y of the original pond surface, the datum of depths");
+  v.choice("when", c.transfer.when, kTransferWhens, "what decides the transfer time");
+  v.quantity("at", c.transfer.at, Dim::time, {}, "transfer time, with when: at");
+  v.rows("densities", c.densities, kDensity,
+         "density of each material tag, for the kinetic energy");
+  v.group("box", c.box, "part of the section that counts");
+  v.table(
+      "windows", c.windows,
+      "ranges of x in which the depth of liquefaction is read; left out: one, `all`, that holds "
+      "the whole liquefiable soil");
+  v.choice("depth_coordinates", c.depth_coordinates, kDepthCoordinates,
+           "depth of a node where it was, or where it is");
+  v.group("r_u", c.r_u, "excess pore-pressure ratio");
+  v.integers("base_nodes", c.base_nodes,
+             "node tags whose mean velocity is that of the base; the lowest nodes if left out");
+  v.group("automatic", c.transfer.automatic, "criteria of the automatic transfer time");
+}
+
+void Schema<ZoneConfig>::describe(FieldVisitor& v, ZoneConfig& c) {
+  static constexpr std::array<FieldVisitor::Column, 2> kPoint{
+      {{"x", Dim::length}, {"y", Dim::length}}};
+  Schema<TransferRuleConfig>::describe(v, c);
+  v.choice("zone", c.zone, kZoneExtents,
+           "found from r_u, all of the liquefiable soil, above a line, or inside a polygon");
+  v.rows("line", c.line, kPoint,
+         "lower boundary for zone: line, x rising; level to the left, its last segment goes on");
+  v.rows("polygon", c.polygon, kPoint, "corners for zone: polygon, in order");
+  v.group("strength", c.strength, "residual strength of the liquefied soil");
+  v.group("columns", c.columns, "columns in which the automatic zone is found");
+}
+
+namespace {
+
+void check_points(std::string_view key, const std::vector<std::vector<double>>& points,
+                  std::size_t least, bool used) {
+  validate(used || points.empty(),
+           "{0} is given but zone is another (it would be ignored) write zone: {0}, or remove {0}",
+           key);
+  if (!used) return;
+  validate(points.size() >= least,
+           "zone: {0} needs at least {1} points in {0} (it has {2}) add them", key, least,
+           points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    validate(points[i].size() == 2 && std::isfinite(points[i][0]) && std::isfinite(points[i][1]),
+             "{} point {} is not a pair of numbers (x and y are needed) write [x, y]", key, i + 1);
+  }
+}
+
+}  // namespace
+
+DepthWindows windows_or_all(const TransferRuleConfig& c) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  return c.windows.empty() ? DepthWindows{{"all", {-far, far}}} : c.windows;
+}
+
+void check(const TransferRuleConfig& c) {
+  validate(!c.liquefiable.empty(),
+           "liquefiable is empty (no material can liquefy) give the material tags, e.g. [168]");
+  validate(std::isfinite(c.pond_surface),
+           "pond_surface is not set (depths have no datum) give it, e.g. 30 m");
+  for (const auto& [name, window] : c.windows) {
+    validate(window.from < window.to,
+             "windows.{}: from {} m is not less than to {} m (the window is empty) exchange them?",
+             name, window.from, window.to);
+  }
+  std::set<double> tags;
+  for (const std::vector<double>& row : c.densities) {
+    validate(row.size() == 2 && row[0] == std::round(row[0]) && std::abs(row[0]) < 2147483647.0,
+             "densities: {} is not a material tag (tags are whole numbers) correct the row",
+             row.empty() ? kUnset : row[0]);
+    validate(row[1] > 0.0 && std::isfinite(row[1]),
+             "densities: material {} has density {} kg/m3 (mass must be positive) correct the row",
+             row[0], row[1]);
+    validate(tags.insert(row[0]).second,
+             "densities: material {} is given twice (which one holds?) remove one row", row[0]);
+  }
+  check(c.transfer);
+}
+
+void check(const ZoneConfig& c) {
+  check(static_cast<const TransferRuleConfig&>(c));
+  check_points("line", c.line, 2, c.zone == ZoneExtent::line);
+  for (std::size_t i = 1; i < c.line.size(); ++i) {
+    validate(
+        c.line[i][0] > c.line[i - 1][0],
+        "line point {}: x = {} m does not exceed the point before (the line must have one y for "
+        "each x) sort the points",
+        i + 1, c.line[i][0]);
+  }
+  check_points("polygon", c.polygon, 3, c.zone == ZoneExtent::polygon);
+  validate(!(c.zone == ZoneExtent::automatic && c.transfer.when == TransferWhen::gravity),
+           "zone: automatic with when: gravity (r_u is zero in the gravity state, nothing would be "
+           "liquefied) write zone: all, or choose a later time");
+  check(c.strength);
+}
+
+}  // namespace flowslide

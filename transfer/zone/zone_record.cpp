@@ -1,0 +1,163 @@
+#include "transfer/zone/zone_record.hpp"
+
+#include "core/check.hpp"
+#include "transfer/zone/depth.hpp"
+#include "transfer/zone/distortion.hpp"
+#include "transfer/zone/energy.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flowslide {
+namespace {
+
+bool inside(const ZoneBox& box, Vec2 p, double tolerance) {
+  return p[0] >= box.left.value_or(p[0]) - tolerance &&
+         p[0] <= box.right.value_or(p[0]) + tolerance &&
+         p[1] >= box.bottom.value_or(p[1]) - tolerance &&
+         p[1] <= box.top.value_or(p[1]) + tolerance;
+}
+
+std::vector<std::int32_t> tagged_nodes(const QuadMesh& mesh, const std::vector<int>& tags) {
+  std::vector<std::int32_t> nodes;
+  for (const int tag : tags) {
+    const auto found = std::ranges::find(mesh.node_tags, tag);
+    validate(found != mesh.node_tags.end(),
+             "base_nodes: the mesh has no node {} (the base velocity needs it) correct the list",
+             tag);
+    nodes.push_back(static_cast<std::int32_t>(found - mesh.node_tags.begin()));
+  }
+  return nodes;
+}
+
+ZoneParts divide(const QuadMesh& mesh, const TransferRuleConfig& config) {
+  for (const int tag : config.liquefiable) {
+    validate(
+        std::ranges::find(mesh.element_material, tag) != mesh.element_material.end(),
+        "liquefiable: no element has material {} (nothing of it can liquefy) check the tags of "
+        "the mesh",
+        tag);
+  }
+  ZoneParts parts;
+  parts.in_soil.resize(mesh.num_elements());
+  for (std::size_t e = 0; e < mesh.num_elements(); ++e) {
+    const std::array<Vec2, 4> quad = corners(mesh, mesh.nodes, e);
+    // Coordinates often pass through text with six digits.
+    const double tolerance = 1e-4 * std::sqrt(area(quad));
+    const auto counts = [&config, tolerance](Vec2 p) { return inside(config.box, p, tolerance); };
+    if (!std::ranges::all_of(quad, counts)) continue;
+    parts.section.push_back(static_cast<std::int32_t>(e));
+    if (std::ranges::find(config.liquefiable, mesh.element_material[e]) ==
+        config.liquefiable.end()) {
+      continue;
+    }
+    parts.soil.push_back(static_cast<std::int32_t>(e));
+    parts.in_soil[e] = 1;
+  }
+  validate(!parts.soil.empty(),
+           "the box holds no liquefiable element (nothing can liquefy) check box and liquefiable");
+  parts.base_nodes = config.base_nodes.empty() ? lowest_nodes(mesh, parts.section)
+                                               : tagged_nodes(mesh, config.base_nodes);
+  return parts;
+}
+
+void check_windows(const QuadMesh& mesh, const ZoneParts& parts, const DepthWindows& windows) {
+  for (const auto& [name, window] : windows) {
+    const bool found = std::ranges::any_of(parts.soil, [&mesh, &window = window](std::int32_t e) {
+      return std::ranges::any_of(mesh.elements[static_cast<std::size_t>(e)], [&](std::int32_t n) {
+        return window.contains(mesh.nodes[static_cast<std::size_t>(n)][0]);
+      });
+    });
+    validate(
+        found,
+        "windows.{}: no node of the liquefiable soil lies in x = {} m to {} m (its depth would "
+        "always be 0) choose a window that crosses the soil",
+        name, window.from, window.to);
+  }
+}
+
+std::map<std::int32_t, double> density_of_material(const TransferRuleConfig& config) {
+  std::map<std::int32_t, double> density;
+  for (const std::vector<double>& row : config.densities) {
+    density[static_cast<std::int32_t>(row[0])] = row[1];
+  }
+  return density;
+}
+
+}  // namespace
+
+ZoneParts zone_parts(const QuadMesh& mesh, const TransferRuleConfig& config, bool shaken) {
+  ZoneParts parts = divide(mesh, config);
+  check_windows(mesh, parts, config.windows);
+  if (shaken) (void)element_masses(mesh, parts.section, density_of_material(config));
+  return parts;
+}
+
+ZoneRecorder::ZoneRecorder(const QuadMesh& mesh, const FemFrame& gravity,
+                           const TransferRuleConfig& config)
+    : mesh_(mesh), config_(config), parts_(zone_parts(mesh, config)) {
+  config_.windows = windows_or_all(config);
+  reference_ = r_u_reference(mesh_, gravity, parts_.in_soil, config_.r_u);
+  for (const auto& [name, window] : config_.windows) history_.window_names.push_back(name);
+  history_.depth.resize(history_.window_names.size());
+  history_.depth_max.resize(history_.window_names.size());
+}
+
+void ZoneRecorder::check_finite(const FemFrame& frame) const {
+  for (const std::int32_t e : parts_.section) {
+    for (const std::int32_t node : mesh_.elements[static_cast<std::size_t>(e)]) {
+      const auto n = static_cast<std::size_t>(node);
+      validate(
+          std::isfinite(frame.displacement[n][0]) && std::isfinite(frame.displacement[n][1]) &&
+              std::isfinite(frame.velocity[n][0]) && std::isfinite(frame.velocity[n][1]),
+          "node {}: displacement or velocity at {} s is not finite (energy and distortion need "
+          "it) check the recorders, or end the record before",
+          mesh_.node_tags[n], frame.time);
+    }
+    validate(std::isfinite(deviatoric_strain(frame.strain[static_cast<std::size_t>(e)])),
+             "element {}: the strain at {} s is not finite (the distortion needs it) check the "
+             "recorder, or end the record before",
+             mesh_.element_tags[static_cast<std::size_t>(e)], frame.time);
+  }
+}
+
+void ZoneRecorder::append(const FemFrame& frame) {
+  if (mass_.empty()) mass_ = element_masses(mesh_, parts_.section, density_of_material(config_));
+  check_finite(frame);
+  std::vector<Vec2> positions = mesh_.nodes;
+  for (std::size_t n = 0; n < positions.size(); ++n) {
+    for (std::size_t k = 0; k < 2; ++k) positions[n][k] += frame.displacement[n][k];
+  }
+  const std::vector<double> r_u = r_u_at_nodes(mesh_, reference_, frame.pore_pressure, frame.time);
+  const std::vector<Vec2>& where =
+      config_.depth_coordinates == DepthCoordinates::original ? mesh_.nodes : positions;
+  history_.time.push_back(frame.time);
+  std::size_t w = 0;
+  for (const auto& [name, window] : config_.windows) {
+    const double depth =
+        depth_of_liquefaction(window, config_.pond_surface, where, r_u, config_.r_u.threshold);
+    history_.depth_max[w].push_back(
+        history_.depth[w].empty() ? depth : std::max(depth, history_.depth_max[w].back()));
+    history_.depth[w].push_back(depth);
+    ++w;
+  }
+  const KineticEnergy energy =
+      kinetic_energy(mesh_, parts_.section, mass_, frame.velocity, parts_.base_nodes);
+  history_.kinetic_energy.push_back(energy.absolute);
+  history_.kinetic_energy_relative.push_back(energy.relative);
+  const Distortion q = distortion(mesh_, parts_.section, positions, frame.strain,
+                                  config_.transfer.automatic.strain_threshold);
+  history_.distortion_gauss.push_back(q.gauss);
+  history_.distortion_centre.push_back(q.centre);
+  base_energy_.push_back(energy.base);
+}
+
+TransferChoice ZoneRecorder::choose() const {
+  return choose_transfer(config_.transfer, history_, base_energy_);
+}
+
+bool ZoneRecorder::is_settled() const {
+  return flowslide::is_settled(config_.transfer, history_, base_energy_);
+}
+
+}  // namespace flowslide

@@ -1,0 +1,53 @@
+#pragma once
+#include "model/history.hpp"
+#include "model/zone.hpp"
+#include "transfer/zone/zone_config.hpp"
+#include "transfer/zone/zone_r_u.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace flowslide {
+
+/// What part of the mesh counts for what.
+struct ZoneParts {
+  std::vector<std::int32_t> section;  ///< elements inside the box
+  std::vector<std::int32_t> soil;     ///< liquefiable ones among them
+  std::vector<std::uint8_t> in_soil;  ///< flag per element, the same
+  std::vector<std::int32_t> base_nodes;
+};
+
+/// Throws InputError for settings that do not fit the mesh: tags, box, windows, base nodes and, if
+/// there is shaking, materials without a density.
+ZoneParts zone_parts(const QuadMesh& mesh, const TransferRuleConfig& config, bool shaken = false);
+
+/// Makes the scalars of ZoneHistory from frames as they come, so that the rule of the transfer time
+/// can be asked while a record grows (docs/theory/liquefaction-zone.md).
+class ZoneRecorder {
+ public:
+  /// Throws InputError: settings that do not fit the mesh, a gravity state with unset numbers.
+  ZoneRecorder(const QuadMesh& mesh, const FemFrame& gravity, const TransferRuleConfig& config);
+  /// The next frame. Throws InputError for state that is not finite where it is needed, and for a
+  /// material without a density.
+  void append(const FemFrame& frame);
+
+  [[nodiscard]] const ZoneParts& parts() const { return parts_; }
+  [[nodiscard]] const RuReference& reference() const { return reference_; }
+  [[nodiscard]] const ZoneHistory& history() const { return history_; }
+  [[nodiscard]] TransferChoice choose() const;
+  /// Whether the choice is final: docs/theory/liquefaction-zone.md, "Stopping by the rule".
+  [[nodiscard]] bool is_settled() const;
+
+ private:
+  void check_finite(const FemFrame& frame) const;
+  QuadMesh mesh_;
+  TransferRuleConfig config_;
+  ZoneParts parts_;
+  RuReference reference_;
+  std::vector<double> mass_;  ///< of the elements of the section [kg/m]
+  ZoneHistory history_;
+  std::vector<double> base_energy_;  ///< KineticEnergy::base of each frame
+};
+
+}  // namespace flowslide

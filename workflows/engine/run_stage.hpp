@@ -1,0 +1,32 @@
+#pragma once
+#include "workflows/engine/cache.hpp"
+#include "workflows/engine/graph.hpp"
+#include "workflows/engine/runner.hpp"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace flowslide {
+
+/// What a stage takes from those before it.
+struct StageInputs {
+  std::map<std::string, std::string> hashes;  ///< by port
+  PortPaths paths;
+  std::vector<HashedFile> files;  ///< below these paths, as they were when last read
+  std::vector<std::string> warnings = {};  ///< of the stages before it
+};
+
+/// A result that lies in the run folder.
+struct StageState {
+  StageRecord record;
+  std::vector<HashedFile> files;
+};
+
+/// Runs one stage in its work folder and turns that into a result. The rename is the moment from
+/// which the result exists. FileError, and no result, if a file that the settings name or an input
+/// was written meanwhile.
+StageState run_stage(const WorkflowStage& stage, const Decision& decision,
+                     const StageInputs& inputs, const RunOptions& options, const RunEvents& events);
+
+}  // namespace flowslide

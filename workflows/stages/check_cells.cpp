@@ -1,0 +1,85 @@
+#include "core/check.hpp"
+#include "workflows/stages/cross_checks.hpp"
+
+#include <cmath>
+#include <unistd.h>
+
+namespace flowslide {
+namespace {
+
+// Cells over the height of the soil that counts (docs/guide/checks.md).
+constexpr double kFewestCells = 4.0;
+constexpr double kFewCells = 12.0;
+
+// What a point takes at most while it is made and run: its fields twice, its pieces, its nodes.
+constexpr double kBytesPerPoint2d = 800.0, kBytesPerPoint3d = 1500.0;
+
+}  // namespace
+
+double physical_memory() {
+  return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
+         static_cast<double>(::sysconf(_SC_PAGESIZE));
+}
+
+void check_cells(const FlowConfig& flow, const Soil& soil, Findings& found) {
+  if (soil.counted.empty()) return;
+  const double height = soil.counted.height(), cells = height / flow.cell;
+  if (cells < kFewestCells * (1.0 - 1e-6))
+    found.errors.push_back(fmt::format(
+        "cell: {:g} m are {:.2g} cells over the height of the soil of {:g} m (it cannot fail "
+        "between so few nodes, and the runout would be 0 or meaningless) take at most {:.3g} m",
+        flow.cell, cells, height, height / kFewestCells));
+  else if (cells < kFewCells * (1.0 - 1e-6))
+    found.warnings.push_back(fmt::format(
+        "cell: {:g} m are {:.2g} cells over the height of the soil of {:g} m. So coarse a grid "
+        "gives a runout that is too short, by half with 6 cells; take {:.3g} m or less for numbers "
+        "to be used.",
+        flow.cell, cells, height, height / 24.0));
+}
+
+void compare_cells(const FlowConfig& flow, const MapConfig& map, Findings& found) {
+  if (map.compat != Compat::none || map.seeding == Seeding::gauss) return;
+  const double points = map.points_per_cell * flow.cell / map.cell;
+  if (points < 1.0 - 1e-9) {
+    found.errors.push_back(fmt::format(
+        "cell: {:g} m against {:g} m in transfer.map leaves {:.2g} points per cell and direction "
+        "(between points so far apart there is no soil) write the same cell for both, as in "
+        "'cell: \"${{stages.flow.with.cell}}\"'",
+        flow.cell, map.cell, points));
+    return;
+  }
+  if (std::abs(flow.cell / map.cell - 1.0) > 1e-9) {
+    found.warnings.push_back(fmt::format(
+        "cell: {:g} m is not the {:g} m of transfer.map: its points were placed for other cells, "
+        "{:.3g} of them per cell and direction in place of {}.",
+        flow.cell, map.cell, points, map.points_per_cell));
+    return;
+  }
+  for (int d = 0; d < 2; ++d) {
+    const double shift = (flow.grid_origin[d] - map.grid_origin[d]) / flow.cell;
+    if (std::abs(shift - std::round(shift)) > 1e-6) {
+      found.warnings.push_back(fmt::format(
+          "grid_origin: ({:g}, {:g}) m is not on the grid for which transfer.map placed the "
+          "points, "
+          "({:g}, {:g}) m.",
+          flow.grid_origin[0], flow.grid_origin[1], map.grid_origin[0], map.grid_origin[1]));
+      return;
+    }
+  }
+}
+
+void check_memory(const MapConfig& map, const Soil& soil, double width, double memory,
+                  Findings& found) {
+  if (map.compat != Compat::none || map.seeding == Seeding::gauss) return;
+  const double per_metre = map.points_per_cell / map.cell;
+  const bool plane = std::isnan(width);
+  const double points = soil.area * per_metre * per_metre * (plane ? 1.0 : width * per_metre);
+  const double bytes = points * (plane ? kBytesPerPoint2d : kBytesPerPoint3d);
+  if (bytes > memory)
+    found.errors.push_back(fmt::format(
+        "cell: {:g} m makes about {:.2g} points, which take about {:.2g} GB (this machine has "
+        "{:.2g} GB) use larger cells or fewer points per cell",
+        map.cell, points, bytes / 1e9, memory / 1e9));
+}
+
+}  // namespace flowslide

@@ -1,0 +1,170 @@
+#include "core/check.hpp"
+#include "workflows/stages/cross_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+/// Where a runout takes place.
+namespace flowslide {
+namespace {
+
+template <class... Args>
+void refuse(Findings& found, fmt::format_string<Args...> text, Args&&... args) {
+  found.errors.push_back(fmt::format(text, std::forward<Args>(args)...));
+}
+template <class... Args>
+void warn(Findings& found, fmt::format_string<Args...> text, Args&&... args) {
+  found.warnings.push_back(fmt::format(text, std::forward<Args>(args)...));
+}
+
+void add(Extent& extent, Vec2 p) {
+  extent.left = std::min(extent.left, p[0]);
+  extent.right = std::max(extent.right, p[0]);
+  extent.bottom = std::min(extent.bottom, p[1]);
+  extent.top = std::max(extent.top, p[1]);
+}
+
+/// Height of the polyline at x, the lower one at a step; level beyond its ends.
+double ground_height(const std::vector<std::vector<double>>& surface, double x) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < surface.size(); ++i) {
+    const bool first = i == 0 && x <= surface[i][0];
+    const bool last = i + 1 == surface.size() && x >= surface[i][0];
+    if (first || last || surface[i][0] == x) lowest = std::min(lowest, surface[i][1]);
+    if (i == 0 || !(x > surface[i - 1][0] && x < surface[i][0])) continue;
+    const double share = (x - surface[i - 1][0]) / (surface[i][0] - surface[i - 1][0]);
+    lowest = std::min(lowest, surface[i - 1][1] + share * (surface[i][1] - surface[i - 1][1]));
+  }
+  return lowest;
+}
+
+}  // namespace
+
+Soil soil_of(const SectionMesh& section, const MapConfig& config) {
+  Soil soil;
+  const QuadMesh& mesh = section.mesh;
+  constexpr double big = std::numeric_limits<double>::max();
+  std::array<double, 4> box{-big, big, -big, big};
+  if (config.box.size() == 4) std::copy(config.box.begin(), config.box.end(), box.begin());
+  std::map<int, bool> counts;
+  for (const auto& [name, material] : config.materials)
+    for (const int tag : material.tags) counts[tag] = material.counts_for_runout;
+  for (std::size_t e = 0; e < mesh.num_elements(); ++e) {
+    const auto found = counts.find(mesh.element_material[e]);
+    if (found == counts.end()) continue;
+    const std::array<Vec2, 4> quad = corners(mesh, mesh.nodes, e);
+    const Vec2 centre = centroid(quad);
+    const bool inside =
+        centre[0] > box[0] && centre[0] < box[1] && centre[1] > box[2] && centre[1] < box[3];
+    if (!inside) continue;
+    soil.area += area(quad);
+    soil.centres.push_back(centre);
+    for (const Vec2& p : quad) {
+      const Vec2 clamped{std::clamp(p[0], box[0], box[1]), std::clamp(p[1], box[2], box[3])};
+      add(soil.all, clamped);
+      if (found->second) add(soil.counted, clamped);
+    }
+  }
+  return soil;
+}
+
+void check_toe(const FlowConfig& flow, const Soil& soil, Findings& found) {
+  const Extent& e = soil.counted;
+  if (e.empty()) return;
+  constexpr double kFarthest = 100.0;  // heights; the longest known flows go some tens
+  const double beyond = flow.toe - e.right;
+  if (beyond > kFarthest * e.height())
+    refuse(found,
+           "toe: x = {:g} m lies {:g} m beyond the downstream end of the soil at x = {:g} m, more "
+           "than {:g} times its height of {:g} m (nothing would pass it and the runout would be 0 "
+           "whatever happens) give the x of the toe of the section",
+           flow.toe, beyond, e.right, kFarthest, e.height());
+  else if (beyond > std::max(e.height(), 2.0 * flow.cell))
+    warn(found,
+         "toe: x = {:g} m lies {:g} m beyond the downstream end of the soil at x = {:g} m. The "
+         "runout is counted from there: a flow of up to {:g} m will be reported as 0.",
+         flow.toe, beyond, e.right, beyond);
+  if (flow.toe <= e.left || -beyond > e.height())
+    refuse(found,
+           "toe: x = {:g} m lies {:g} m inside the soil, which ends at x = {:g} m and is {:g} m "
+           "high (so much would count as runout before anything moves) give the x of the toe of "
+           "the section",
+           flow.toe, -beyond, e.right, e.height());
+  else if (-beyond > flow.cell)
+    warn(found,
+         "toe: x = {:g} m lies {:g} m inside the soil, which ends at x = {:g} m: so much counts as "
+         "runout before anything moves.",
+         flow.toe, -beyond, e.right);
+}
+
+void check_edges(const FlowConfig& flow, const Soil& soil, Findings& found) {
+  const Extent& e = soil.all;
+  if (e.empty()) return;
+  const double slack = 0.5 * flow.cell;
+  if (flow.left_roller && *flow.left_roller > e.left + slack)
+    refuse(found,
+           "left_roller: x = {:g} m lies inside the soil, which begins at x = {:g} m (what is "
+           "behind the wall would be pushed about) put it at the end of the soil",
+           *flow.left_roller, e.left);
+  else if (flow.left_roller && *flow.left_roller < e.left - 2.0 * flow.cell)
+    warn(found,
+         "left_roller: x = {:g} m lies {:g} m upstream of the soil, which begins at x = {:g} m: "
+         "its upstream end stands free and can fall towards the wall.",
+         *flow.left_roller, e.left - *flow.left_roller, e.left);
+  if (flow.right_roller && *flow.right_roller < e.right - slack)
+    refuse(found,
+           "right_roller: x = {:g} m lies inside the soil, which ends at x = {:g} m (what is "
+           "behind the wall would be pushed about) put it beyond the soil",
+           *flow.right_roller, e.right);
+  else if (flow.right_roller && *flow.right_roller <= flow.toe)
+    warn(found,
+         "right_roller: x = {:g} m does not lie beyond the toe at x = {:g} m: nothing can pass the "
+         "toe and the runout will be 0.",
+         *flow.right_roller, flow.toe);
+  const OutletSettings& o = flow.outlet;
+  const auto leaves = [&](const char* side, const std::optional<double>& at, bool outside) {
+    if (at && outside)
+      refuse(found,
+             "outlet.{}: {:g} m lies inside the soil, which spans x = {:g} to {:g} m and y = {:g} "
+             "to {:g} m (part of it would leave before it moves) put it beyond the soil",
+             side, *at, e.left, e.right, e.bottom, e.top);
+  };
+  leaves("left", o.left, o.left && *o.left > e.left + slack);
+  leaves("right", o.right, o.right && *o.right < e.right - slack);
+  leaves("bottom", o.bottom, o.bottom && *o.bottom > e.bottom + slack);
+  leaves("top", o.top, o.top && *o.top < e.top - slack);
+  if (o.right && *o.right >= e.right - slack && *o.right <= flow.toe)
+    refuse(found,
+           "outlet.right: x = {:g} m does not lie beyond the toe at x = {:g} m (points count where "
+           "they left, so the runout would be 0 whatever happens) put it downstream of the toe",
+           *o.right, flow.toe);
+}
+
+void check_ground(const FlowConfig& flow, const Soil& soil, Findings& found) {
+  if (flow.ground.terrain || flow.absorbing.bottom || soil.centres.empty()) return;
+  double deepest = 0.0, lowest = std::numeric_limits<double>::infinity();
+  Vec2 where{};
+  for (const Vec2& c : soil.centres) {
+    const double above = c[1] - ground_height(flow.ground.surface, c[0]);
+    lowest = std::min(lowest, above);
+    if (-above > deepest) {
+      deepest = -above;
+      where = c;
+    }
+  }
+  if (deepest > 0.5 * flow.cell)
+    refuse(found,
+           "ground.surface: soil at ({:.4g}, {:.4g}) m lies {:.3g} m below it (it would be thrown "
+           "out) lower the surface or raise the box of the transfer",
+           where[0], where[1], deepest);
+  const double free = lowest - 2.0 * flow.cell;
+  if (free > 0.0 && free > 0.5 * soil.all.height())
+    warn(found,
+         "ground.surface: the lowest soil hangs about {:.3g} m above it and will fall before it "
+         "flows.",
+         lowest);
+  if (std::isfinite(flow.gravity) && !(flow.gravity > 9.7 && flow.gravity < 9.9))
+    warn(found, "gravity: {:g} m/s2 is not that of the earth.", flow.gravity);
+}
+
+}  // namespace flowslide

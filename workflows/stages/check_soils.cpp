@@ -1,0 +1,160 @@
+#include "core/check.hpp"
+#include "core/conventions.hpp"
+#include "fem/build_model.hpp"
+#include "workflows/stages/cross_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+/// Numbers of soils and water that cannot be, or are odd.
+namespace flowslide {
+namespace {
+
+struct Plausible {
+  double least, low, high, most;  ///< outside of least and most it cannot be
+};
+
+// Grains are 2.0 (coal, fly ash) to 5.2 t/m3 (magnetite), loose dry tailings 0.6 t/m3.
+constexpr Plausible kDensity{600.0, 1200.0, 3200.0, 5000.0};
+constexpr Plausible kGrains{1500.0, 2300.0, 4700.0, 7500.0};
+// From slurry to rock.
+constexpr Plausible kStiffness{5e3, 2e5, 5e10, 1e12};
+constexpr Plausible kWaterStiffness{1e5, 1e7, 2.6e9, 1e10};
+constexpr Plausible kWaterDensity{500.0, 950.0, 1300.0, 2000.0};
+
+void judge(const std::string& what, double value, double scale, const char* unit,
+           const Plausible& p, const char* hint, Findings& found) {
+  if (!(value >= p.least && value <= p.most))
+    found.errors.push_back(fmt::format("{} is {:.4g} {} (it cannot lie outside {:g} to {:g} {}) {}",
+                                       what, value / scale, unit, p.least / scale, p.most / scale,
+                                       unit, hint));
+  else if (!(value >= p.low && value <= p.high))
+    found.warnings.push_back(fmt::format("{} is {:.4g} {}, outside the usual {:g} to {:g} {}: {}.",
+                                         what, value / scale, unit, p.low / scale, p.high / scale,
+                                         unit, hint));
+}
+
+constexpr const char* kUnitHint = "check number and unit";
+
+/// The section must not be pressed flat by its own weight.
+void check_stiffness(const std::string& where, double modulus, double density, double height,
+                     Findings& found) {
+  judge(where + ".youngs_modulus", modulus, 1e6, "MPa", kStiffness, kUnitHint, found);
+  const double weight = density * kGravity * height;
+  if (modulus >= kStiffness.least && weight > modulus)
+    found.errors.push_back(fmt::format(
+        "{}.youngs_modulus: {:.4g} kPa is less than the weight of the soil above its base, {:.4g} "
+        "kPa over {:.3g} m (it would be pressed flat) check number and unit",
+        where, modulus / 1e3, weight / 1e3, height));
+  else if (modulus >= kStiffness.least && 5.0 * weight > modulus)
+    found.warnings.push_back(
+        fmt::format("{}.youngs_modulus: {:.4g} kPa lets the soil settle by {:.0f} % under its own "
+                    "weight, {:.4g} "
+                    "kPa over {:.3g} m.",
+                    where, modulus / 1e3, 100.0 * weight / modulus, weight / 1e3, height));
+}
+
+double modulus_of(const AnyMaterial& law) {
+  const LawParameters p = to_parameters(law);
+  const auto found = p.parameters.find("youngs_modulus");
+  return found == p.parameters.end() ? kUnset : found->second;
+}
+
+}  // namespace
+
+void check_map_materials(const MapConfig& map, const SectionMesh& section, const Soil& soil,
+                         Findings& found) {
+  const std::set<std::int32_t> tags(section.mesh.element_material.begin(),
+                                    section.mesh.element_material.end());
+  const double height = soil.all.empty() ? 0.0 : soil.all.height();
+  for (const auto& [name, m] : map.materials) {
+    const std::string where = "materials." + name;
+    for (const int tag : m.tags)
+      if (tags.count(tag) == 0)
+        found.warnings.push_back(
+            fmt::format("{}.tags: no element of the mesh has the material tag {} (tags: {}).",
+                        where, tag, fmt::join(tags, ", ")));
+    judge(where + ".density", m.density, 1.0, "kg/m3", kDensity, kUnitHint, found);
+    const double modulus = modulus_of(make_material(m.law, name));
+    if (is_set(modulus)) check_stiffness(where, modulus, m.density, height, found);
+    if (m.liquefied)
+      check_stiffness(where + ".liquefied", m.liquefied->youngs_modulus, m.density, height, found);
+  }
+}
+
+void compare_densities(const MapConfig& map, const std::map<int, double>& other,
+                       std::string_view stage, Findings& found) {
+  for (const auto& [name, m] : map.materials)
+    for (const int tag : m.tags) {
+      const auto at = other.find(tag);
+      if (at == other.end() || std::abs(at->second / m.density - 1.0) <= 0.01) continue;
+      found.warnings.push_back(
+          fmt::format("materials.{}.density: {:g} kg/m3, but {} has {:g} kg/m3 for the material "
+                      "with the tag {}.",
+                      name, m.density, stage, at->second, tag));
+    }
+}
+
+void check_fem_soils(const FemConfig& fem, Findings& found) {
+  const double water = fem.water ? fem.water->density : 1000.0;
+  for (const auto& [name, m] : fem.materials) {
+    const std::string where = "materials." + name;
+    judge(where + ".density", m.density, 1.0, "kg/m3", kDensity, kUnitHint, found);
+    const double n = m.void_ratio / (1.0 + m.void_ratio);
+    // Saturated, as the program takes it; soil that is drained or has no water may be dry.
+    double grains = (m.density - n * water) / (1.0 - n);
+    if (m.drained || !fem.water) grains = std::clamp(2650.0, grains, m.density / (1.0 - n));
+    judge(fmt::format("{}: density of the grains that density {:g} kg/m3 and void_ratio {:g} imply",
+                      where, m.density, m.void_ratio),
+          grains, 1.0, "kg/m3", kGrains, "density is that of grains and water together; check both",
+          found);
+    ShakingLaws::each([&]<class M>() {
+      if (const auto& law = m.laws.of<M>())
+        if constexpr (requires { law->youngs_modulus; })
+          judge(where + ".youngs_modulus", law->youngs_modulus, 1e6, "MPa", kStiffness, kUnitHint,
+                found);
+    });
+  }
+  if (fem.water) {
+    judge("water.bulk_modulus", fem.water->bulk_modulus, 1e6, "MPa", kWaterStiffness,
+          "pure water has 2200 MPa, with air in it less", found);
+    judge("water.density", fem.water->density, 1.0, "kg/m3", kWaterDensity, kUnitHint, found);
+  }
+  if (!(fem.gravity.acceleration > 9.7 && fem.gravity.acceleration < 9.9))
+    found.warnings.push_back(fmt::format(
+        "gravity.acceleration: {:g} m/s2 is not that of the earth.", fem.gravity.acceleration));
+}
+
+void check_water(const FemConfig& fem, const QuadMesh& mesh, Findings& found) {
+  if (!fem.water || fem.water->table.empty()) return;
+  Extent e;
+  for (const Vec2& p : mesh.nodes) {
+    e.left = std::min(e.left, p[0]);
+    e.right = std::max(e.right, p[0]);
+    e.bottom = std::min(e.bottom, p[1]);
+    e.top = std::max(e.top, p[1]);
+  }
+  double highest = -std::numeric_limits<double>::infinity();
+  for (const Vec2& p : mesh.nodes) highest = std::max(highest, fem::water_level(*fem.water, p[0]));
+  const double height = e.top - e.bottom;
+  if (highest > e.top + height)
+    found.errors.push_back(fmt::format(
+        "water.table: stands at y = {:.4g} m, {:.4g} m above the top of the section at {:.4g} m, "
+        "more than the section is high (the water alone would crush it) check number and unit",
+        highest, highest - e.top, e.top));
+  else if (highest > e.top * (1.0 + 1e-9) + 1e-6 * height)
+    found.warnings.push_back(fmt::format(
+        "water.table: stands at y = {:.4g} m, {:.3g} m above the highest point of the section: all "
+        "of it is under water.",
+        highest, highest - e.top));
+  if (!(highest > e.bottom))
+    found.warnings.push_back(fmt::format(
+        "water.table: stands below the section (at most at y = {:.4g} m, the section begins at "
+        "{:.4g} m): the soil is dry and cannot liquefy.",
+        highest, e.bottom));
+}
+
+}  // namespace flowslide

@@ -1,0 +1,77 @@
+#pragma once
+#include "fem/config.hpp"
+#include "model/section_mesh.hpp"
+#include "mpm/run/flow_config.hpp"
+#include "transfer/map/map_config.hpp"
+#include "transfer/zone/stop_config.hpp"
+#include "transfer/zone/zone_config.hpp"
+#include "workflows/engine/stage.hpp"
+
+#include <limits>
+#include <map>
+#include <optional>
+
+/// Settings against each other and against the section, before anything runs. What cannot be is an
+/// error, what is odd a warning; limits and reasons in docs/guide/checks.md.
+namespace flowslide {
+
+/// Smallest box around some soil [m].
+struct Extent {
+  double left = std::numeric_limits<double>::infinity();
+  double right = -std::numeric_limits<double>::infinity();
+  double bottom = std::numeric_limits<double>::infinity();
+  double top = -std::numeric_limits<double>::infinity();
+  [[nodiscard]] bool empty() const { return !(left < right && bottom < top); }
+  [[nodiscard]] double height() const { return top - bottom; }
+};
+
+/// What transfer.map makes points of.
+struct Soil {
+  Extent all, counted;        ///< counted: what counts for the runout
+  double area = 0.0;          ///< [m2]
+  std::vector<Vec2> centres;  ///< of its elements, inside the box
+};
+
+Soil soil_of(const SectionMesh& section, const MapConfig& config);
+
+/// Toe, rollers, outlet and ground of a runout against the soil.
+void check_toe(const FlowConfig& flow, const Soil& soil, Findings& found);
+void check_edges(const FlowConfig& flow, const Soil& soil, Findings& found);
+void check_ground(const FlowConfig& flow, const Soil& soil, Findings& found);
+/// Opens the terrain file.
+void check_terrain(const FlowConfig& flow, const Soil& soil, Findings& found);
+
+/// Cells against the height of the soil and those of the transfer; memory for the points.
+void check_cells(const FlowConfig& flow, const Soil& soil, Findings& found);
+void compare_cells(const FlowConfig& flow, const MapConfig& map, Findings& found);
+/// `memory` in bytes; physical_memory() but for tests.
+void check_memory(const MapConfig& map, const Soil& soil, double width, double memory,
+                  Findings& found);
+double physical_memory();
+
+/// Density, stiffness and tags of the materials of a transfer.
+void check_map_materials(const MapConfig& map, const SectionMesh& section, const Soil& soil,
+                         Findings& found);
+/// Elements inside the box without a material, and soil that can liquefy without a law for it.
+void check_map_tags(const MapConfig& map, const SectionMesh& section,
+                    const std::optional<ZoneConfig>& zone, Findings& found);
+/// Densities by tag [kg/m3] of another stage against those of a transfer.
+void compare_densities(const MapConfig& map, const std::map<int, double>& other,
+                       std::string_view stage, Findings& found);
+
+/// Soils and water of the finite elements.
+void check_fem_soils(const FemConfig& fem, Findings& found);
+void check_water(const FemConfig& fem, const QuadMesh& mesh, Findings& found);
+
+/// Residual strength against the stress it belongs to.
+void check_strength(const StrengthConfig& strength, Findings& found);
+/// The pond surface against the soil that can liquefy.
+void check_pond(const TransferRuleConfig& rule, const QuadMesh& mesh, Findings& found);
+/// Settings of fem.run's stop_at_transfer that transfer.zone has otherwise.
+void compare_transfer_rules(const StopAtTransferConfig& stop, const ZoneConfig& zone,
+                            Findings& found);
+
+/// A section of impossible size, and nodes far from all others.
+void check_size(const QuadMesh& mesh, Findings& found);
+
+}  // namespace flowslide

@@ -1,0 +1,22 @@
+#include "workflows/stages/preview.hpp"
+
+namespace flowslide {
+
+Preview merged(const Previews& inputs) {
+  Preview all;
+  for (const auto& [port, value] : inputs) {
+    const auto* p = std::any_cast<Preview>(&value);
+    if (!p) continue;
+    if (!all.section) all.section = p->section;
+    all.shakes = all.shakes || p->shakes;
+    if (!all.end) all.end = p->end;
+    all.density.insert(p->density.begin(), p->density.end());
+    if (!all.stop) all.stop = p->stop;
+    if (!all.zone) all.zone = p->zone;
+    if (!all.map) all.map = p->map;
+    if (!all.flow) all.flow = p->flow;
+  }
+  return all;
+}
+
+}  // namespace flowslide
