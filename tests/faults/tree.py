@@ -64,7 +64,8 @@ def incomplete(root, now, start, whole):
     wrong = []
     for key, found in now.items():
         name = os.path.basename(key)
-        if is_temporary(key) or found == "folder":
+        # The session file goes after its result has its name; the record does not list it.
+        if is_temporary(key) or found == "folder" or name == "session.json":
             continue
         if name in ALWAYS:
             if name == "run.lock" and not parses(f"{root}/{key}"):
