@@ -22,6 +22,7 @@ void make_folder(const fs::path& folder) {
   if (error)
     throw FileError(
         fmt::format("'{}': the folder cannot be made ({})", folder.string(), error.message()));
+  remove_leftovers(folder);
 }
 
 /// A row of a recorder: time, then the numbers of each node or element.

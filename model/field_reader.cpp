@@ -24,7 +24,8 @@ std::uintmax_t check_signature(const std::filesystem::path& path) {
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found)
     throw FileError(fmt::format("'{}' does not exist", path.string()));
-  if (error) throw FileError(fmt::format("'{}' cannot be read ({})", path.string(), error.message()));
+  if (error)
+    throw FileError(fmt::format("'{}' cannot be read ({})", path.string(), error.message()));
   expect_regular_file(path);
   std::ifstream in(path, std::ios::binary);
   if (!in)
@@ -103,6 +104,15 @@ void narrow(const std::string& where, const std::vector<std::int64_t>& wide, voi
   }
 }
 
+/// validate() for what HDF5 has told of the file.
+template <class... Args>
+void demand(const std::filesystem::path& path, bool ok, fmt::format_string<Args...> text,
+            Args&&... args) {
+  if (ok) return;
+  expect_no_system_error(path);
+  throw InputError(fmt::format(text, std::forward<Args>(args)...));
+}
+
 }  // namespace
 
 struct FieldReader::Impl {
@@ -120,26 +130,29 @@ struct FieldReader::Impl {
     for (std::size_t end = 0; end != std::string::npos;) {
       end = name.find('/', end + 1);
       const std::string prefix = name.substr(0, end);
-      if (H5Lexists(file, prefix.c_str(), H5P_DEFAULT) <= 0) return false;
+      if (H5Lexists(file, prefix.c_str(), H5P_DEFAULT) <= 0) {
+        expect_no_system_error(path);
+        return false;
+      }
       H5L_info_t info;
       if (H5Lget_info(file, prefix.c_str(), &info, H5P_DEFAULT) < 0)
         throw_file_error(path, prefix, "cannot be found");
-      validate(info.type == H5L_TYPE_HARD,
-               "{} is a link (links are not followed: the data must lie in the file itself)",
-               where(prefix));
+      demand(path, info.type == H5L_TYPE_HARD,
+             "{} is a link (links are not followed: the data must lie in the file itself)",
+             where(prefix));
     }
     return true;
   }
 
   [[nodiscard]] Hdf5Handle open(const std::string& name) const {
-    validate(reachable(name), "{} is missing; was the file written by another program?",
-             where(name));
+    demand(path, reachable(name), "{} is missing; was the file written by another program?",
+           where(name));
     Hdf5Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), &H5Dclose);
     if (!dataset.valid()) throw_file_error(path, name, "cannot be opened");
     const Hdf5Handle layout(H5Dget_create_plist(dataset), &H5Pclose);
-    validate(H5Pget_external_count(layout) == 0 && H5Pget_layout(layout) != H5D_VIRTUAL,
-             "{} keeps its values in other files (only values in the file itself are read)",
-             where(name));
+    demand(path, H5Pget_external_count(layout) == 0 && H5Pget_layout(layout) != H5D_VIRTUAL,
+           "{} keeps its values in other files (only values in the file itself are read)",
+           where(name));
     return dataset;
   }
 
@@ -188,8 +201,8 @@ struct FieldReader::Impl {
     const Hdf5Handle stored(H5Dget_type(dataset), &H5Tclose);
     const H5T_class_t group = H5Tget_class(stored);
     const bool real = type == Scalar::f64;
-    validate(group == H5T_INTEGER || (real && group == H5T_FLOAT), "{} does not hold {}",
-             where(name), real ? "numbers" : "whole numbers");
+    demand(path, group == H5T_INTEGER || (real && group == H5T_FLOAT), "{} does not hold {}",
+           where(name), real ? "numbers" : "whole numbers");
     if (count == 0) return;
     std::vector<std::int64_t> wide(real ? 0 : count);
     if (H5Dread(dataset, memory_type(real ? Scalar::f64 : Scalar::i64), memory, space, H5P_DEFAULT,
@@ -220,15 +233,15 @@ FieldReader::FieldReader(const std::filesystem::path& path, std::string_view kin
   impl_->file_size = check_signature(path);
   impl_->file = open_file(path);
   const std::string stored = root_text(path, impl_->file, "kind");
-  validate(stored == kind, "'{}' {}, but '{}' is needed here; name another file", path.string(),
-           stored.empty() ? "was not written by flowslide (it has no attribute 'kind')"
-                          : fmt::format("is of the kind '{}'", stored),
-           kind);
+  demand(path, stored == kind, "'{}' {}, but '{}' is needed here; name another file", path.string(),
+         stored.empty() ? "was not written by flowslide (it has no attribute 'kind')"
+                        : fmt::format("is of the kind '{}'", stored),
+         kind);
   const std::int64_t format = root_integer(path, impl_->file, "format_version");
-  validate(format >= 1 && format <= newest_format,
-           "'{}' has the format version {} of {} (this program reads 1 to {}, the file comes from "
-           "{}); use the program that wrote it or make the file again",
-           path.string(), format, kind, newest_format, root_text(path, impl_->file, "program"));
+  demand(path, format >= 1 && format <= newest_format,
+         "'{}' has the format version {} of {} (this program reads 1 to {}, the file comes from "
+         "{}); use the program that wrote it or make the file again",
+         path.string(), format, kind, newest_format, root_text(path, impl_->file, "program"));
 }
 
 FieldReader::~FieldReader() = default;
@@ -241,12 +254,14 @@ bool FieldReader::has(const std::string& name) const { return impl_->reachable(n
 
 std::size_t FieldReader::rows(const std::string& name) const {
   const Shape shape = impl_->shape(name, impl_->open(name));
-  validate(!shape.empty(), "{} is a single value (a list is expected)", impl_->where(name));
+  demand(impl_->path, !shape.empty(), "{} is a single value (a list is expected)",
+         impl_->where(name));
   return shape[0];
 }
 
 std::vector<std::string> FieldReader::names(const std::string& group) const {
-  validate(impl_->reachable(group), "'{}': group '{}' is missing", impl_->path.string(), group);
+  demand(impl_->path, impl_->reachable(group), "'{}': group '{}' is missing", impl_->path.string(),
+         group);
   const Hdf5Handle handle(H5Gopen2(impl_->file, group.c_str(), H5P_DEFAULT), &H5Gclose);
   std::vector<std::string> names;
   const auto add = [](hid_t, const char* name, const H5L_info_t*, void* out) -> herr_t {
@@ -261,8 +276,8 @@ std::vector<std::string> FieldReader::names(const std::string& group) const {
 
 void FieldReader::check_shape(const std::string& name, const Shape& expected) const {
   const Shape found = impl_->shape(name, impl_->open(name));
-  validate(found == expected, "{} has the shape {} (expected {})", impl_->where(name),
-           shape_text(found), shape_text(expected));
+  demand(impl_->path, found == expected, "{} has the shape {} (expected {})", impl_->where(name),
+         shape_text(found), shape_text(expected));
 }
 
 void FieldReader::read_array(const std::string& name, Scalar type, const Shape& shape, void* data,
@@ -282,8 +297,8 @@ void FieldReader::read_series_row(const std::string& name, std::size_t index, Sc
   const Hdf5Handle space(H5Dget_space(dataset), &H5Sclose);
   const Hdf5Handle memory(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
                           &H5Sclose);
-  validate(index < rows(name), "{} has no row {} (it has {})", impl_->where(name), index,
-           rows(name));
+  demand(impl_->path, index < rows(name), "{} has no row {} (it has {})", impl_->where(name), index,
+         rows(name));
   if (H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr) < 0)
     throw_file_error(impl_->path, name, "cannot be read");
   std::size_t count = 1;
@@ -308,8 +323,8 @@ std::vector<std::string> FieldReader::read_texts(const std::string& name, std::s
   check_shape(name, {count});
   const Hdf5Handle dataset = impl_->open(name);
   const Hdf5Handle type(H5Dget_type(dataset), &H5Tclose);
-  validate(H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0,
-           "{} does not hold text of fixed length", impl_->where(name));
+  demand(impl_->path, H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0,
+         "{} does not hold text of fixed length", impl_->where(name));
   const std::size_t length = H5Tget_size(type);
   std::string bytes(count * length, '\0');
   if (count > 0 && H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0)

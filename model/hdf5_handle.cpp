@@ -6,6 +6,33 @@
 #include <new>
 
 namespace flowslide {
+namespace {
+
+// Errors of the operating system come with addresses and times, which help no user.
+constexpr std::string_view kSystem = "error message = '";
+
+/// The reason that the system gave HDF5 last.
+std::string& system_error() {
+  static std::string reason;
+  return reason;
+}
+
+/// What HDF5 calls when one of its functions fails; others may follow before anybody asks.
+herr_t note_system_error(hid_t stack, void*) {
+  return H5Ewalk2(
+      stack, H5E_WALK_UPWARD,
+      [](unsigned n, const H5E_error2_t* entry, void*) -> herr_t {
+        const std::string_view text = n == 0 && entry->desc ? entry->desc : "";
+        if (const std::size_t at = text.find(kSystem); at != std::string::npos) {
+          const std::string_view reason = text.substr(at + kSystem.size());
+          system_error() = reason.substr(0, reason.find('\''));
+        }
+        return 0;
+      },
+      nullptr);
+}
+
+}  // namespace
 
 void start_hdf5() {
   static const bool started = [] {
@@ -13,11 +40,17 @@ void start_hdf5() {
     // exit would touch what is left of the file and crash.
     H5dont_atexit();
     H5open();
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    H5Eset_auto2(H5E_DEFAULT, &note_system_error, nullptr);
     H5PLset_loading_state(0);
     return true;
   }();
   static_cast<void>(started);
+  system_error().clear();
+}
+
+void expect_no_system_error(const std::filesystem::path& file) {
+  if (!system_error().empty())
+    throw FileError(fmt::format("'{}' cannot be read ({})", file.string(), system_error()));
 }
 
 std::string hdf5_error() {
@@ -31,8 +64,6 @@ std::string hdf5_error() {
       &text);
   for (char& c : text)
     if (c == '\n' || c == '\r') c = ' ';
-  // Errors of the operating system come with addresses and times, which help no user.
-  constexpr std::string_view kSystem = "error message = '";
   if (const std::size_t at = text.find(kSystem); at != std::string::npos) {
     text.erase(0, at + kSystem.size());
     text.resize(std::min(text.find('\''), text.size()));

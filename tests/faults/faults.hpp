@@ -46,9 +46,9 @@ struct Record {
 
 struct Plan {
   Action action = Action::none;
-  bool memory = false;  ///< else files
-  unsigned number = 0;  ///< from 1
-  double clock = 0.0;   ///< seconds by which a look at the steady clock moves it on; 0: real time
+  bool memory = false;    ///< else files
+  unsigned number = 0;    ///< from 1
+  double clock = 0.0;     ///< seconds by which a look at the steady clock moves it on; 0: real time
   const char* root = "";  ///< file calls count below this folder
 };
 

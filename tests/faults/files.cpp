@@ -14,9 +14,9 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
-/// Calls on files below Plan::root. What the C library calls within itself cannot be seen from here,
-/// so streams of <cstdio> are stood in for at fopen, fwrite, fflush and fclose; std::fstream ends in
-/// fopen, read, write, writev and fclose. HDF5's driver and zlib call like everybody else.
+/// Calls on files below Plan::root. What the C library calls within itself cannot be seen from
+/// here, so streams of <cstdio> are stood in for at fopen, fwrite, fflush and fclose; std::fstream
+/// ends in fopen, read, write, writev and fclose. HDF5's driver and zlib call like everybody else.
 namespace faults {
 namespace {
 
@@ -168,21 +168,21 @@ ssize_t pwrite64(int file, const void* bytes, size_t size, off_t at) {
 }
 ssize_t writev(int file, const struct iovec* parts, int count) {
   static auto* const real = next<ssize_t(int, const struct iovec*, int)>("writev");
-  return move(Call::write, file, static_cast<size_t>(count), [&](size_t n) {
-    return real(file, parts, static_cast<int>(n));
-  });
+  return move(Call::write, file, static_cast<size_t>(count),
+              [&](size_t n) { return real(file, parts, static_cast<int>(n)); });
 }
 size_t fwrite(const void* bytes, size_t size, size_t count, FILE* stream) {
   static auto* const real = next<size_t(const void*, size_t, size_t, FILE*)>("fwrite");
-  const ssize_t moved =
-      move(Call::write, ::fileno(stream), count,
-           [&](size_t n) { return static_cast<ssize_t>(real(bytes, size, n, stream)); });
+  const ssize_t moved = move(Call::write, ::fileno(stream), count, [&](size_t n) {
+    return static_cast<ssize_t>(real(bytes, size, n, stream));
+  });
   return moved < 0 ? 0 : static_cast<size_t>(moved);
 }
 int fflush(FILE* stream) {
   static auto* const real = next<int(FILE*)>("fflush");
   if (!stream) return real(stream);
-  return pass(Call::write, ENOSPC, [&] { return real(stream); }, ::fileno(stream));
+  return pass(
+      Call::write, ENOSPC, [&] { return real(stream); }, ::fileno(stream));
 }
 ssize_t sendfile(int out, int in, off_t* at, size_t size) {
   static auto* const real = next<ssize_t(int, int, off_t*, size_t)>("sendfile");
@@ -235,52 +235,64 @@ int renameat(int a, const char* from, int b, const char* to) noexcept {
 }
 int unlink(const char* path) noexcept {
   static auto* const real = next<int(const char*)>("unlink");
-  return pass(Call::remove, EIO, [&] { return real(path); }, path);
+  return pass(
+      Call::remove, EIO, [&] { return real(path); }, path);
 }
 int unlinkat(int folder, const char* path, int flags) noexcept {
   static auto* const real = next<int(int, const char*, int)>("unlinkat");
-  return pass(Call::remove, EIO, [&] { return real(folder, path, flags); }, folder, path);
+  return pass(
+      Call::remove, EIO, [&] { return real(folder, path, flags); }, folder, path);
 }
 int rmdir(const char* path) noexcept {
   static auto* const real = next<int(const char*)>("rmdir");
-  return pass(Call::remove, EIO, [&] { return real(path); }, path);
+  return pass(
+      Call::remove, EIO, [&] { return real(path); }, path);
 }
 int remove(const char* path) noexcept {
   static auto* const real = next<int(const char*)>("remove");
-  return pass(Call::remove, EIO, [&] { return real(path); }, path);
+  return pass(
+      Call::remove, EIO, [&] { return real(path); }, path);
 }
 int mkdir(const char* path, mode_t mode) noexcept {
   static auto* const real = next<int(const char*, mode_t)>("mkdir");
-  return pass(Call::make, ENOSPC, [&] { return real(path, mode); }, path);
+  return pass(
+      Call::make, ENOSPC, [&] { return real(path, mode); }, path);
 }
 int mkdirat(int folder, const char* path, mode_t mode) noexcept {
   static auto* const real = next<int(int, const char*, mode_t)>("mkdirat");
-  return pass(Call::make, ENOSPC, [&] { return real(folder, path, mode); }, folder, path);
+  return pass(
+      Call::make, ENOSPC, [&] { return real(folder, path, mode); }, folder, path);
 }
 int symlink(const char* target, const char* path) noexcept {
   static auto* const real = next<int(const char*, const char*)>("symlink");
-  return pass(Call::make, ENOSPC, [&] { return real(target, path); }, path);
+  return pass(
+      Call::make, ENOSPC, [&] { return real(target, path); }, path);
 }
 int symlinkat(const char* target, int folder, const char* path) noexcept {
   static auto* const real = next<int(const char*, int, const char*)>("symlinkat");
-  return pass(Call::make, ENOSPC, [&] { return real(target, folder, path); }, folder, path);
+  return pass(
+      Call::make, ENOSPC, [&] { return real(target, folder, path); }, folder, path);
 }
 
 int stat(const char* path, struct stat* about) noexcept {
   static auto* const real = next<int(const char*, struct stat*)>("stat");
-  return pass(Call::look, EIO, [&] { return real(path, about); }, path);
+  return pass(
+      Call::look, EIO, [&] { return real(path, about); }, path);
 }
 int lstat(const char* path, struct stat* about) noexcept {
   static auto* const real = next<int(const char*, struct stat*)>("lstat");
-  return pass(Call::look, EIO, [&] { return real(path, about); }, path);
+  return pass(
+      Call::look, EIO, [&] { return real(path, about); }, path);
 }
 int fstat(int file, struct stat* about) noexcept {
   static auto* const real = next<int(int, struct stat*)>("fstat");
-  return pass(Call::look, EIO, [&] { return real(file, about); }, file);
+  return pass(
+      Call::look, EIO, [&] { return real(file, about); }, file);
 }
 int fstatat(int folder, const char* path, struct stat* about, int flags) noexcept {
   static auto* const real = next<int(int, const char*, struct stat*, int)>("fstatat");
-  return pass(Call::look, EIO, [&] { return real(folder, path, about, flags); }, folder, path);
+  return pass(
+      Call::look, EIO, [&] { return real(folder, path, about, flags); }, folder, path);
 }
 // The same structures on 64-bit Linux.
 int stat64(const char* path, struct stat64* about) noexcept {
@@ -297,7 +309,8 @@ int fstatat64(int folder, const char* path, struct stat64* about, int flags) noe
 }
 ssize_t readlink(const char* path, char* target, size_t size) noexcept {
   static auto* const real = next<ssize_t(const char*, char*, size_t)>("readlink");
-  return pass(Call::look, EIO, [&] { return real(path, target, size); }, path);
+  return pass(
+      Call::look, EIO, [&] { return real(path, target, size); }, path);
 }
 DIR* opendir(const char* path) {
   static auto* const real = next<DIR*(const char*)>("opendir");
@@ -322,15 +335,18 @@ struct dirent64* readdir64(DIR* listing) {
 }
 off_t lseek(int file, off_t offset, int from) noexcept {
   static auto* const real = next<off_t(int, off_t, int)>("lseek");
-  return pass(Call::look, EIO, [&] { return real(file, offset, from); }, file);
+  return pass(
+      Call::look, EIO, [&] { return real(file, offset, from); }, file);
 }
 off64_t lseek64(int file, off64_t offset, int from) noexcept { return lseek(file, offset, from); }
 int flock(int file, int how) noexcept {
   static auto* const real = next<int(int, int)>("flock");
-  return pass(Call::look, EIO, [&] { return real(file, how); }, file);
+  return pass(
+      Call::look, EIO, [&] { return real(file, how); }, file);
 }
 int chmod(const char* path, mode_t mode) noexcept {
   static auto* const real = next<int(const char*, mode_t)>("chmod");
-  return pass(Call::look, EIO, [&] { return real(path, mode); }, path);
+  return pass(
+      Call::look, EIO, [&] { return real(path, mode); }, path);
 }
 }

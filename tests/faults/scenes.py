@@ -74,7 +74,7 @@ STAGES = {
     uses: transfer.map
     in: {history: shake.history, zone: zone.zone}
     with:
-      cell: 8 m
+      cell: 4 m
       box: [-64 m, 80 m, -8 m, 40 m]
       c_soft_ratio: 0.5
       audit: {enforce: false}
@@ -99,7 +99,7 @@ STAGES = {
     uses: mpm.run
     in: {particles: map.particles}
     with:
-      cell: 8 m
+      cell: 4 m
       toe: 48 m
       end: 3 s
       frame_interval: 1 s
@@ -212,7 +212,7 @@ def scenes():
 
 
 # In place of the first texts: sixteen times as many elements and points, and larger files.
-FINE = {"size: 16 m": "size: 4 m", "cell: 8 m": "cell: 2 m", "end: 3 s": "end: 1 s",
+FINE = {"size: 16 m": "size: 4 m", "cell: 4 m": "cell: 2 m", "end: 3 s": "end: 1 s",
         "frame_interval: 1 s": "frame_interval: 0.25 s"}
 
 

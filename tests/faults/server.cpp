@@ -106,7 +106,8 @@ bool read_line(char* line, int size) {
   armed = true;
   const int code = program(fields - 7, field + 7, environment);
   if (plan.memory) armed = false;
-  if (plan.action == Action::cut || plan.action == Action::names) {  // after the last call: what the program called done is kept
+  if (plan.action == Action::cut ||
+      plan.action == Action::names) {  // after the last call: what the program called done is kept
     record->fired = 1;
     lose_unsynced();
   }
@@ -134,8 +135,8 @@ void answer(int status) {
 int serve(int, char**, char** environment) {
   static char line[1u << 14];
   ::unsetenv("LD_PRELOAD");  // not for the programs that this one starts
-  record = static_cast<Record*>(::mmap(nullptr, sizeof(Record), PROT_READ | PROT_WRITE,
-                                       MAP_SHARED | MAP_ANONYMOUS, -1, 0));
+  record = static_cast<Record*>(
+      ::mmap(nullptr, sizeof(Record), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
   while (read_line(line, sizeof line)) {
     char* field[kMostFields + 1] = {};
     int fields = 0;
@@ -162,11 +163,11 @@ extern "C" {
 
 int __libc_start_main(int (*main)(int, char**, char**), int argc, char** argv, void (*init)(),
                       void (*fini)(), void (*rtld_fini)(), void* stack_end) {
-  using Start = int(int (*)(int, char**, char**), int, char**, void (*)(), void (*)(), void (*)(),
-                    void*);
+  using Start =
+      int(int (*)(int, char**, char**), int, char**, void (*)(), void (*)(), void (*)(), void*);
   faults::program = main;
-  return faults::next<Start>("__libc_start_main")(&faults::serve, argc, argv, init, fini,
-                                                  rtld_fini, stack_end);
+  return faults::next<Start>("__libc_start_main")(&faults::serve, argc, argv, init, fini, rtld_fini,
+                                                  stack_end);
 }
 
 /// Checkpoints are made by wall time. A clock that moves on whenever somebody looks makes them, and

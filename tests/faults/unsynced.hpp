@@ -1,6 +1,6 @@
 #pragma once
-/// What a power cut would take: bytes written and not synced since, and, with Action::names, renames
-/// whose folder was not synced since. For these two actions only.
+/// What a power cut would take: bytes written and not synced since, and, with Action::names,
+/// renames whose folder was not synced since. For these two actions only.
 namespace faults {
 
 void note_open(int file);

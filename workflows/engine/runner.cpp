@@ -1,9 +1,11 @@
 #include "workflows/engine/runner.hpp"
 
 #include "core/check.hpp"
+#include "core/files.hpp"
 #include "workflows/engine/result_folder.hpp"
 #include "workflows/engine/run_folder.hpp"
 #include "workflows/engine/run_stage.hpp"
+#include "workflows/engine/session.hpp"
 #include "workflows/engine/top.hpp"
 #include "workflows/engine/warnings.hpp"
 
@@ -115,6 +117,8 @@ void run_stages(const Workflow& workflow, const RunOptions& options, const RunEv
     StageState state;
     if (decision.action == Action::reuse) {
       remove_work_folder(options.folder, work_folder(options.folder, stage.name, decision.key));
+      // a session that ended between the naming of its result and this
+      remove_path(result_folder(options.folder, stage.name, decision.key) / kSessionFile);
       state = {*decision.record, std::move(decision.files)};
     } else {
       top.stage_runs();
