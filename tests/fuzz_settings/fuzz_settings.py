@@ -46,12 +46,12 @@ SCENE = {
             "strength": {"table": [["10 kPa", "1 kPa"], ["100 kPa", "5 kPa"]]}}},
         "map": {"uses": "transfer.map",
                 "in": {"history": "shake.history", "zone": "zone.zone"}, "with": {
-            "cell": "2 m", "c_soft_ratio": 0.5, "audit": {"enforce": False},
+            "cell": "1 m", "c_soft_ratio": 0.5, "audit": {"enforce": False},
             "materials": {"soil": {"tags": [1], "density": "1900 kg/m3", "mohr_coulomb": SOIL,
                                    "liquefied": {"youngs_modulus": "5 MPa", "poisson_ratio": 0.45,
                                                  "residual_strain": 1.0}}}}},
         "flow": {"uses": "mpm.run", "in": {"particles": "map.particles"}, "with": {
-            "cell": "2 m", "toe": "16 m", "end": "0.5 s", "transfer": "aflip", "left_roller": "0 m",
+            "cell": "1 m", "toe": "16 m", "end": "0.5 s", "transfer": "aflip", "left_roller": "0 m",
             "ground": {"surface": [["0 m", "0 m"]]}, "frame_interval": "0.25 s",
             "sample_interval": "0.05 s"}},
         "report": {"uses": "report.runout", "in": {
