@@ -34,6 +34,15 @@ int available_threads() {
   return sched_getaffinity(0, sizeof set, &set) == 0 ? std::max(1, CPU_COUNT(&set)) : 1;
 }
 
+/// Results are the same for any number; more than there are only wait for each other.
+int threads_for(int wanted) {
+  const int most = available_threads();
+  if (wanted > most)
+    fmt::print(stderr, "note: {} threads on {} processors (more would wait): {} are used\n", wanted,
+               most, most);
+  return wanted > 0 ? std::min(wanted, most) : most;
+}
+
 void check_redo(const RunArguments& args, const Workflow& workflow) {
   std::vector<std::string> names;
   for (const WorkflowStage& stage : workflow.stages) names.push_back(stage.name);
@@ -106,7 +115,7 @@ int run(const RunArguments& args) {
     return 0;
   }
   const RunOptions options{.folder = folder,
-                           .threads = args.threads > 0 ? args.threads : available_threads(),
+                           .threads = threads_for(args.threads),
                            .stop_requested = &stop_on_signal(),
                            .redo = args.redo,
                            .allowed_programs = args.allowed_programs};

@@ -44,7 +44,8 @@ std::string why_unreadable(const fs::path& path) {
   const fs::file_status status = fs::status(path, error);
   if (status.type() == fs::file_type::not_found) return why_missing(path);
   if (error) {
-    if (error.value() == EACCES) return "cannot be reached (no permission for a folder on the way)";
+    if (error.value() == EACCES)
+      return fmt::format("cannot be reached ({}: a folder on the way)", error.message());
     return fmt::format("cannot be reached ({})", error.message());
   }
   if (status.type() == fs::file_type::directory) return "is a folder (a file is expected)";

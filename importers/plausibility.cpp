@@ -1,6 +1,7 @@
 #include "importers/plausibility.hpp"
 
 #include "core/check.hpp"
+#include "core/elementary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -143,7 +144,7 @@ void MotionWatch::look_at(const FemFrame& frame) {
   std::vector<Vec2> positions = mesh_.nodes;
   for (std::size_t n = 0; n < positions.size(); ++n) {
     const Vec2& u = frame.displacement[n];
-    const double size = std::hypot(u[0], u[1]);
+    const double size = hypot(u[0], u[1]);
     validate(
         size <= length_ || std::isnan(size),
         "displacement: node {} has moved by {:.4g} m at t = {:.6g} s, farther than the section "

@@ -19,7 +19,7 @@
 namespace flowslide {
 namespace {
 
-constexpr double kMostElements = 1e6;
+constexpr double kMostElements = 2e5;
 
 void check_count(const Layout& layout, const SectionConfig& config) {
   double count = 0.0;

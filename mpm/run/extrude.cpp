@@ -1,6 +1,7 @@
 #include "mpm/run/extrude.hpp"
 
 #include "core/check.hpp"
+#include "core/memory.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +9,10 @@
 namespace flowslide {
 namespace {
 
-/// Largest number of points that 32-bit indices of nodes leave room for.
-constexpr double kMostPoints = 1e8;
+/// Beyond these a run takes weeks, and its setting up alone minutes.
+constexpr double kMostPoints = 1e7;
+/// Of a point among the particles, in the solver and in a stored state, without its grid.
+constexpr double kBytesPerPoint = 1000.0;
 
 /// The same array with every entry `copies` times.
 template <class T>
@@ -37,6 +40,10 @@ ParticleSet extrude(const ParticleSet& section, double width) {
            "extrude.width of {:g} m makes {:.3g} points of {} (at most {:g} are possible) take a "
            "larger cell or a smaller width",
            width, across * double(section.size()), section.size(), kMostPoints);
+  need_memory(kBytesPerPoint * across * double(section.size()),
+              fmt::format("an extrude.width of {:g} m, {:.3g} points,", width,
+                          across * double(section.size())),
+              "take a larger cell or a smaller width");
   const auto copies = static_cast<std::size_t>(across);
   const double step = width / across;
 

@@ -227,6 +227,7 @@ void prepare(Simulation<Dim>& s, StepScratch<Dim>& scratch, bool rebin) {
   scratch.stress_work.resize(s.tiling.tiles.size());
   scratch.sleep_work.resize(scratch.asleep.tiles.empty() ? 0 : s.tiling.tiles.size());
   scratch.grid_work.resize(s.grid.blocks.size());
+  scratch.gain2.resize(s.grid.blocks.size());
   const bool fmpm = s.settings.transfer == Transfer::fmpm;
   if (fmpm || s.settings.update != Update::symplectic) scratch.second.resize(s.grid.nodes.size());
   if (fmpm) scratch.third.resize(s.grid.nodes.size());

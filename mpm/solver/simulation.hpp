@@ -86,6 +86,7 @@ struct StepScratch {
   std::vector<TileScratch<Dim>> tile;   ///< per thread
   double light = 0.0;                   ///< MomentumSettings::light
   std::vector<StressWork> stress_work;  ///< per tile
+  std::vector<double> gain2;            ///< per block, of update_momentum [m2/s2]
   std::vector<Way> ways;                ///< per tile, where the step had to be looked at
   std::vector<GridWork<Dim>> grid_work;   ///< per block
   std::vector<GridWork<Dim>> sleep_work;  ///< per tile, of those asleep

@@ -143,15 +143,18 @@ struct Phases {
       add_loads<Dim, Basis>(s, scratch);
     }
     const auto blocks = static_cast<std::int32_t>(s.grid.blocks.size());
-    double gain2 = 0.0;
+    double most2 = 0.0;
 #pragma omp for schedule(static) nowait
     for (std::int32_t b = 0; b < blocks; ++b) {
       sum_windows<Dim, Basis>(s.tiling, scratch.windows.data(), b, s.grid.nodes.data());
+      double gain2 = 0.0;
       scratch.grid_work[b] =
           loaded ? update_momentum<Dim, true>(s.grid, b, momentum, s.full_mass, gain2)
                  : update_momentum<Dim, false>(s.grid, b, momentum, s.full_mass, gain2);
+      scratch.gain2[b] = gain2;
+      if (!(gain2 <= most2)) most2 = gain2;
     }
-    mine.gain2 = gain2;
+    mine.gain2 = most2;
 #pragma omp barrier
   }
 
@@ -193,7 +196,7 @@ struct Phases {
     if (update == Update::musl) strain_from_points(thread);
   }
 
-  /// What the velocities on the grid would do to the points.
+  /// What the velocities on the grid would do to the points near nodes that gain much.
   Way look_ahead() {
     scratch.ways.assign(s.tiling.tiles.size(), {});
 #pragma omp parallel num_threads(static_cast <int>(scratch.tile.size()))
@@ -204,6 +207,7 @@ struct Phases {
 #pragma omp barrier
       take_turns(scratch.groups, thread, [&](std::int32_t i) {
         const Tile<Dim>& tile = s.tiling.tiles[i];
+        if (tile_gains_little(s, scratch, tile)) return;
         const Node* nodes = s.grid.nodes.data();
         interpolate_tile<Dim, Basis>(s.points, tile, s.grid, nodes, mine);
         gather_gradient<Dim, Basis>(s.points, tile, s.grid, nodes, mine);

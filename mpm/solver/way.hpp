@@ -13,14 +13,28 @@ inline constexpr double kWayOverLimit = 2.5, kStrainOverLimit = 4.0;
 /// Beyond these the step makes no sense, however it came to it: cells, and |L| dt.
 inline constexpr double kFarthestWay = 1.0, kLargestStrain = 0.9;
 
-/// True where the changes of the nodes' velocities are so small that no point needs to be looked
-/// at. Called by every thread, with the same answer.
+/// Change of a node's velocity up to which no point near it needs to be looked at [m/s].
+template <int Dim>
+double little_gain(const Simulation<Dim>& s) noexcept {
+  return 0.5 * std::min(s.settings.velocity_limit, s.settings.strain_limit) * s.grid.h / s.dt;
+}
+
+/// True where no node gains more. Called by every thread, with the same answer.
 template <int Dim>
 bool gains_little(const Simulation<Dim>& s, const StepScratch<Dim>& scratch) noexcept {
-  const double limit = 0.5 * std::min(s.settings.velocity_limit, s.settings.strain_limit);
-  const double gain = limit * s.grid.h / s.dt;
+  const double gain = little_gain(s);
   return std::all_of(scratch.tile.begin(), scratch.tile.end(),
                      [&](const TileScratch<Dim>& t) { return t.gain2 <= gain * gain; });
+}
+
+/// The same of the nodes that the points of a tile reach.
+template <int Dim>
+bool tile_gains_little(const Simulation<Dim>& s, const StepScratch<Dim>& scratch,
+                       const Tile<Dim>& tile) noexcept {
+  const double gain = little_gain(s);
+  return std::all_of(tile.around.begin(), tile.around.end(), [&](std::int32_t block) {
+    return scratch.gain2[static_cast<std::size_t>(block)] <= gain * gain;
+  });
 }
 
 /// Written so that what is not a number is the farthest.

@@ -55,12 +55,20 @@ struct Scene {
     return run_fem(mesh, motion, settings, {folder / "history.h5", folder / "checkpoint"}, 1,
                    progress, rule);
   }
-  /// One step.
-  void interrupt(const std::filesystem::path& folder) const {
-    static const std::atomic<bool> stop{true};
+  /// Stops with the first step: the state before it is what a rule is shown first.
+  FemFacts run_one_step(const std::filesystem::path& folder) const {
+    std::atomic<bool> stop{false};
     Progress progress;
     progress.stop_requested = &stop;
-    REQUIRE_THROWS_AS(run(folder, progress), Interrupted);
+    StopRule rule;
+    rule.ends = [&](const FemFrame&) {
+      stop = true;
+      return false;
+    };
+    return run(folder, progress, rule);
+  }
+  void interrupt(const std::filesystem::path& folder) const {
+    REQUIRE_THROWS_AS(run_one_step(folder), Interrupted);
   }
   /// One step after the first recorded state from `fraction` on.
   void interrupt_after(const std::filesystem::path& folder, double fraction,
@@ -258,11 +266,8 @@ TEST_CASE("A checkpoint whose numbers cannot be those of the shaking is refused"
     read_checkpoint(folder / "checkpoint", origin, s, run);
     change(s, run);
     write_checkpoint(folder / "checkpoint", origin, s, run);
-    static const std::atomic<bool> stop{true};
-    Progress progress;
-    progress.stop_requested = &stop;
     try {
-      scene.run(folder.path(), progress);
+      scene.run_one_step(folder.path());
     } catch (const Interrupted&) {
       return std::string("(none)");
     } catch (const FileError& e) {

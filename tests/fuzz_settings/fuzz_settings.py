@@ -22,7 +22,7 @@ from pathlib import Path
 ALLOWED = {0, 2, 3, 4, 130}
 MEMORY = 8 << 30  # of one run [bytes]
 
-BLOCK = [["0 m", "0 m"], ["16 m", "0 m"], ["12 m", "6 m"], ["0 m", "6 m"]]
+BLOCK = [["0 m", "0 m"], ["16 m", "0 m"], ["16 m", "3 m"], ["0 m", "6 m"]]
 SOIL = {"youngs_modulus": "5 MPa", "poisson_ratio": 0.3, "cohesion": "2 kPa",
         "friction_angle": "30 deg"}
 SCENE = {
@@ -39,19 +39,19 @@ SCENE = {
                   "in": {"mesh": "mesh.mesh", "motion": "motion.motion"}, "with": {
             "materials": {"soil": {"density": "1900 kg/m3", "void_ratio": 0.8,
                                    "permeability": ["1e-6 m/s", "1e-6 m/s"], "mohr_coulomb": SOIL}},
-            "end": "0.2 s", "output_interval": "0.1 s"}},
+            "base": {"motion": "within"}, "end": "0.2 s", "output_interval": "0.1 s"}},
         "zone": {"uses": "transfer.zone", "in": {"history": "shake.history"}, "with": {
             "when": "gravity", "zone": "all", "liquefiable": [1], "windows": {},
             "densities": [[1, "1900 kg/m3"]], "pond_surface": "6 m",
             "strength": {"table": [["10 kPa", "1 kPa"], ["100 kPa", "5 kPa"]]}}},
         "map": {"uses": "transfer.map",
                 "in": {"history": "shake.history", "zone": "zone.zone"}, "with": {
-            "cell": "2 m", "c_soft_ratio": 0.5, "audit": {"enforce": False},
+            "cell": "1 m", "c_soft_ratio": 0.5, "audit": {"enforce": False},
             "materials": {"soil": {"tags": [1], "density": "1900 kg/m3", "mohr_coulomb": SOIL,
                                    "liquefied": {"youngs_modulus": "5 MPa", "poisson_ratio": 0.45,
                                                  "residual_strain": 1.0}}}}},
         "flow": {"uses": "mpm.run", "in": {"particles": "map.particles"}, "with": {
-            "cell": "2 m", "toe": "16 m", "end": "0.5 s", "transfer": "aflip", "left_roller": "0 m",
+            "cell": "1 m", "toe": "16 m", "end": "0.5 s", "transfer": "aflip", "left_roller": "0 m",
             "ground": {"surface": [["0 m", "0 m"]]}, "frame_interval": "0.25 s",
             "sample_interval": "0.05 s"}},
         "report": {"uses": "report.runout", "in": {

@@ -1,6 +1,7 @@
 #pragma once
 #include "core/conventions.hpp"
 #include "mpm/solver/balance.hpp"
+#include "mpm/solver/checkpoint.hpp"
 #include "mpm/run/flow.hpp"
 #include "mpm/run/load.hpp"
 
@@ -55,6 +56,16 @@ inline FlowConfig free_space(double cell) {
   c.gravity = 0.0;
   c.ground.surface = {{0.0, -1e6}};
   return c;
+}
+
+/// What the driver of a run would remember beside the simulation.
+template <int Dim>
+RunState state_of(const Simulation<Dim>& s) {
+  RunState r;
+  r.frames = 1;
+  r.first_dt = s.dt;
+  r.next_frame = r.next_sample = s.time + 1.0;
+  return r;
 }
 
 struct Run {

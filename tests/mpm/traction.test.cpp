@@ -180,7 +180,7 @@ TEST_CASE("Loads keep to their points", "[mpm]") {
   const Scratch folder;
   Run run(bar(0.0), c);
   run.run_to(0.3);
-  RunState kept;
+  RunState kept = state_of(run.s);
   write_checkpoint(folder / "c", run.s, kept);
   Simulation<2> again = make_simulation(bar(0.0), c);
   read_checkpoint(folder / "c", again, kept);

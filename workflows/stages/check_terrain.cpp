@@ -1,4 +1,5 @@
 #include "core/check.hpp"
+#include "core/elementary.hpp"
 #include "mpm/walls/height_field.hpp"
 #include "workflows/stages/cross_checks.hpp"
 
@@ -16,11 +17,11 @@ namespace {
 /// How far a place of the scene lies beyond the nodes of the map, eastward and northward [m].
 struct Beyond {
   double east = 0.0, north = 0.0;
-  [[nodiscard]] double size() const { return std::hypot(east, north); }
+  [[nodiscard]] double size() const { return hypot(east, north); }
 };
 
 Beyond beyond(const mpm::HeightField& f, double x, double y) {
-  const double c = std::cos(f.place.heading), s = std::sin(f.place.heading);
+  const double c = cos(f.place.heading), s = sin(f.place.heading);
   const double east = f.place.origin[0] + c * x - s * y;
   const double north = f.place.origin[1] + s * x + c * y;
   const auto out = [](double at, double low, double high) {

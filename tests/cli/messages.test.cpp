@@ -1,0 +1,137 @@
+#include "tests/cli/program.hpp"
+
+using namespace flowslide;
+using namespace flowslide::cli::test;
+using Catch::Contains;
+
+TEST_CASE("words that are no command or stage lead to the nearest", "[cli]") {
+  const Scratch scratch;
+  write_model(scratch);
+  CHECK_THAT(call(scratch, "rum x.yaml").err, Contains("Did you mean 'flowslide run'?"));
+  CHECK_THAT(call(scratch, "xyzzy").err, Contains("Known: run, check"));
+  REQUIRE(run(scratch, shake()).code == 0);
+  const Outcome o = call(scratch, "check w.yaml --set stages.shak.with.bad_rows=stop");
+  CHECK(o.code == 2);
+  CHECK_THAT(o.err, Contains("no such stage") && Contains("Did you mean 'shake'?"));
+}
+
+TEST_CASE("a full disk behind the standard output is a matter of files", "[cli]") {
+  const Scratch scratch;
+  for (const char* arguments : {"schema", "--help", "bench --list"}) {
+    CAPTURE(arguments);
+    const std::string command = std::string(FLOWSLIDE_BINARY " ") + arguments + " >/dev/full 2>'" +
+                                (scratch / "err.txt").string() + "'";
+    CHECK(WEXITSTATUS(std::system(command.c_str())) == 4);
+    CHECK_THAT(read_text_file(scratch / "err.txt"), Contains("standard output"));
+  }
+}
+
+TEST_CASE("files that cannot be read are a matter of files, with the system's reason", "[cli]") {
+  const Scratch scratch;
+  write_model(scratch);
+  std::filesystem::create_symlink("loop", scratch / "loop");
+  std::filesystem::create_symlink("gone", scratch / "link");
+  const std::string name(300, 'x');
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"loop", "cannot be reached"},
+      {"link", "link to gone"},
+      {name, "cannot be reached"},
+      {"no/such/file", "the folder no does not exist"},
+      {"/dev/zero", "no regular file"}};
+  for (const auto& [path, reason] : cases)
+    for (const char* command : {"inspect ", "motion --unit g ", "run ", "check "}) {
+      CAPTURE(command, path);
+      const Outcome o = call(scratch, command + path);
+      CHECK(o.code == 4);
+      if (command == std::string("inspect ")) CHECK_THAT(o.err, Contains(reason));
+    }
+}
+
+TEST_CASE("a missing recorder is named with its line and its folder", "[cli]") {
+  const Scratch scratch;
+  write_model(scratch);
+  const auto with = [&](const std::string& path) {
+    std::string stages = shake();
+    stages.replace(stages.find("stress.out"), 10, path);
+    return run(scratch, stages);
+  };
+  for (const auto& [path, reason] :
+       std::vector<std::pair<std::string, std::string>>{{"gone.out", "no such file"},
+                                                        {"data/stress.out", "the folder"},
+                                                        {"~/stress.out", "'~' is not expanded"},
+                                                        {".", "is a folder"}}) {
+    CAPTURE(path);
+    const Outcome o = with(path);
+    CHECK(o.code == 4);
+    CHECK_THAT(o.err,
+               Contains("w.yaml:9:") && Contains("shake.with.gravity.stress") && Contains(reason));
+  }
+  CHECK(with("stress.out").code == 0);
+}
+
+TEST_CASE("warnings of an import are on the terminal, in the result, and told again", "[cli]") {
+  const Scratch scratch;
+  write_model(scratch);
+  scratch.write("stress.out", "0.1 -4 -8 0\n");
+  Outcome o = run(scratch, shake());
+  CHECK(o.code == 0);
+  CHECK(o.err.empty());  // control
+  scratch.write("stress.out", "0.1 -10000 -20000 0\n");
+  o = run(scratch, shake());
+  CHECK(o.code == 0);
+  CHECK_THAT(o.err, Catch::StartsWith("warning: shake: gravity: total vertical stress grows by"));
+  CHECK_THAT(o.out, Contains("warnings before use"));
+  CHECK_THAT(read_text_file(scratch / "out/result.json"),
+             Contains("\"warnings\": [\n    \"shake: g"));
+  o = run(scratch, shake());
+  CHECK_THAT(o.out, Contains("up to date, 2 warnings (above)"));
+  CHECK_THAT(o.err, Contains("total vertical stress"));
+  CHECK_THAT(call(scratch, "check w.yaml").out, Contains("1 stages, 2 warnings"));
+}
+
+TEST_CASE("lines fit the terminal", "[cli]") {
+  const Scratch scratch;
+  write_model(scratch);
+  scratch.write("stress.out", "0.1 -10000 -20000 0\n");
+  REQUIRE(run(scratch, shake()).code == 0);
+  const std::string run_again =
+      "run w.yaml --out out --set stages.shake.with.sigma_zz.rule=elastic --set "
+      "stages.shake.with.sigma_zz.nu=0.3";
+  for (const unsigned short columns : {40, 60, 80, 120}) {
+    CAPTURE(columns);
+    const std::string text = on_terminal(scratch, run_again + " --dry-run", columns) +
+                             on_terminal(scratch, "run w.yaml --out out", columns);
+    CHECK_THAT(text, Contains("warning: shake: gravity:") && Contains("settings changed"));
+    std::size_t longest = 0, width = 0;
+    for (const char c : text) {
+      width = c == '\n' || c == '\r' ? 0 : width + 1;
+      longest = std::max(longest, width);
+    }
+    CHECK(longest <= columns);
+    if (columns > 60) CHECK(longest > columns / 2);  // the width is used
+  }
+}
+
+TEST_CASE("numbers in two pairs of quotes and odd blanks are named", "[cli]") {
+  const Scratch scratch;
+  const auto check = [&](const std::string& with) {
+    scratch.write(
+        "w.yaml",
+        "schema: 1\nname: w\nstages:\n  m:\n    uses: motion.prepare\n    with:\n" + with + "\n");
+    return call(scratch, "check w.yaml");
+  };
+  CHECK(check("      preset: corinth\n      pga: \"0.3 g\"").code == 0);
+  Outcome o = check("      preset: corinth\n      pga: '\"0.3 g\"'");
+  CHECK(o.code == 2);
+  CHECK_THAT(o.err, Contains("w.yaml:8:") && Contains("in quotes twice"));
+  o = check("      preset: corinth\n      pga: '\"5\"'");
+  CHECK_THAT(o.err, Contains("in quotes twice"));
+  o = check("      preset: corinth\n     \xC2\xA0pga: 0.3 g");
+  CHECK(o.code == 2);
+  CHECK_THAT(o.err, Contains("w.yaml:8:6: non-breaking space where YAML needs a blank"));
+  o = check("      preset: corinth\n      pga: 0.3\xC2\xA0g");
+  CHECK_THAT(o.err, Contains("w.yaml:8:") && Contains("non-breaking space"));
+  o = check("      preset: corinth\n      pga: 0,3 g");
+  CHECK_THAT(o.err, Contains("has ',' in a number"));
+}
+
