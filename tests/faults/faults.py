@@ -162,7 +162,9 @@ class Worker:
         now = tree.snapshot(self.root)
         problems = []
         killed = name in ("kill", "torn", "cut", "cut names")
-        allowed = {-signal.SIGKILL, 0} if killed else {0, 4, 130} if name == "stop" else {0, 4}
+        # Before the first stage nobody has asked for the signal yet.
+        stopped = {0, 4, 130, -signal.SIGTERM}
+        allowed = {-signal.SIGKILL, 0} if killed else stopped if name == "stop" else {0, 4}
         if code not in allowed:
             problems.append(f"ends with {code}: {said.strip().splitlines()[-1:]}")
         if code == 0 and (wrong := tree.differences(now, whole)):
