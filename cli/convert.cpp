@@ -179,7 +179,10 @@ std::string kind_of(const fs::path& in) {
   if (const std::string why = why_unreadable(in); !why.empty())
     throw FileError(fmt::format("{}: {}", in.string(), why));
   std::array<char, 8> head{};
-  std::ifstream(in, std::ios::binary).read(head.data(), head.size());
+  std::ifstream file(in, std::ios::binary);
+  file.read(head.data(), head.size());
+  if (!file.is_open() || file.bad())
+    throw FileError(fmt::format("{}: cannot be read (the disk or the system refuses)", in.string()));
   constexpr std::string_view kHdf5 = "\x89HDF\r\n\x1a\n";
   if (std::string_view(head.data(), head.size()) == kHdf5) return stored_kind(in);
   return in.extension() == ".msh" ? ".msh" : "record";

@@ -166,7 +166,10 @@ Json inspect(const fs::path& path) {
   if (const std::string why = why_unreadable(path); !why.empty())
     throw FileError(fmt::format("{}: {}", path.string(), why));
   std::array<char, 8> head{};
-  std::ifstream(path, std::ios::binary).read(head.data(), head.size());
+  std::ifstream file(path, std::ios::binary);
+  file.read(head.data(), head.size());
+  if (!file.is_open() || file.bad())
+    throw FileError(fmt::format("{}: cannot be read (the disk or the system refuses)", path.string()));
   constexpr std::string_view kHdf5 = "\x89HDF\r\n\x1a\n";
   if (std::string_view(head.data(), head.size()) == kHdf5) return inspect_store(path);
   if (path.extension() == ".yaml" || path.extension() == ".yml") return inspect_workflow(path);

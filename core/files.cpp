@@ -47,6 +47,29 @@ class Descriptor {
   int file_;
 };
 
+/// The name for which a temporary one stands; empty if it is none.
+std::string target_of(const fs::path& temporary) {
+  const std::string name = temporary.filename().string();
+  const std::size_t around = 2 + kRandomDigits + kEnding.size();  // both dots
+  if (name.size() <= around || !name.starts_with('.') || !name.ends_with(kEnding)) return {};
+  const std::size_t dot = name.size() - kEnding.size() - kRandomDigits - 1;
+  const auto first = name.begin() + static_cast<std::ptrdiff_t>(dot) + 1;
+  const bool made = name[dot] == '.' && std::all_of(first, first + kRandomDigits, [](unsigned char c) {
+                      return std::isxdigit(c);
+                    });
+  return made ? name.substr(1, dot - 1) : std::string();
+}
+
+/// Removes what killed writers of one file left.
+void remove_leftovers(const fs::path& folder, const std::string& target) {
+  std::error_code ignored;
+  std::vector<fs::path> found;
+  for (fs::directory_iterator it(folder, ignored), end; !ignored && it != end;
+       it.increment(ignored))
+    if (target_of(it->path()) == target) found.push_back(it->path());
+  for (const fs::path& path : found) remove_path(path);
+}
+
 Descriptor open_regular(const fs::path& path) {
   // Without O_NONBLOCK the opening of a pipe waits for a writer, for ever if there is none.
   Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
@@ -63,6 +86,8 @@ Descriptor open_regular(const fs::path& path) {
 }  // namespace
 
 fs::path temporary_name(const fs::path& path) {
+  // Where the folder cannot be listed it may still be written.
+  remove_leftovers(folder_of(path), path.filename().string());
   std::uint64_t number = 0;
   if (::getrandom(&number, sizeof number, 0) != sizeof number)
     fail(path, "cannot get a temporary name", errno);
@@ -183,18 +208,10 @@ void remove_path(const fs::path& path) {
 }
 
 void remove_leftovers(const fs::path& folder) {
-  const auto is_leftover = [](const std::string& name) {
-    if (!name.starts_with('.') || !name.ends_with(kEnding)) return false;
-    const std::string front = name.substr(0, name.size() - kEnding.size());
-    const std::size_t dot = front.rfind('.');
-    return dot != 0 && front.size() - dot - 1 == kRandomDigits &&
-           std::all_of(front.begin() + static_cast<std::ptrdiff_t>(dot) + 1, front.end(),
-                       [](unsigned char c) { return std::isxdigit(c); });
-  };
   std::error_code error;
   std::vector<fs::path> found;
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
-    if (is_leftover(it->path().filename().string())) found.push_back(it->path());
+    if (!target_of(it->path()).empty()) found.push_back(it->path());
   if (error) fail(folder, "cannot be listed", error.value());
   for (const fs::path& path : found) remove_path(path);
 }

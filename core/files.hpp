@@ -12,7 +12,8 @@
 /// system's reason.
 namespace flowslide {
 
-/// A name beside `path` that nothing has: ".NAME.<random>.partial".
+/// A name beside `path` that nothing has: ".NAME.<random>.partial". What killed writers of the same
+/// file left under such names goes.
 std::filesystem::path temporary_name(const std::filesystem::path& path);
 
 /// Bytes that appear under `path` when all of them are on the disk. The destructor only cleans up:

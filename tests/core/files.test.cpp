@@ -55,6 +55,16 @@ TEST_CASE("What is no regular file is refused, whatever it is") {
   CHECK_THROWS_AS(read_file(folder / ".", 100), FileError);
 }
 
+TEST_CASE("Writing a file again clears away what its killed writer left, and nothing else") {
+  const TemporaryFolder folder;
+  const fs::path left = temporary_name(folder / "a.txt"), other = temporary_name(folder / "b.txt");
+  for (const fs::path& path : {left, other}) std::ofstream(path) << "half";
+  write_file(folder / "a.txt", "whole");
+  CHECK(!fs::exists(left));
+  CHECK(fs::exists(other));
+  CHECK(read_file(folder / "a.txt", 10) == "whole");
+}
+
 TEST_CASE("Only what writers left behind is cleared away") {
   const TemporaryFolder folder;
   const fs::path left = temporary_name(folder / "a.h5");
