@@ -185,6 +185,10 @@ std::string kind_of(const fs::path& in) {
     throw FileError(fmt::format("{}: cannot be read (the disk or the system refuses)", in.string()));
   constexpr std::string_view kHdf5 = "\x89HDF\r\n\x1a\n";
   if (std::string_view(head.data(), head.size()) == kHdf5) return stored_kind(in);
+  if (in.extension() == ".h5")
+    throw FileError(fmt::format(
+        "{}: does not begin as an HDF5 file (it is damaged, or of another kind) make it again",
+        in.string()));
   return in.extension() == ".msh" ? ".msh" : "record";
 }
 

@@ -9,6 +9,15 @@ function(add_module name)
                         PRIVATE $<BUILD_INTERFACE:flowslide_warnings> ${M_PRIVATE_LINKS})
 endfunction()
 
+# unfused(target): g++ 12 fuses the products and sums of complex numbers into one rounding even with
+# -ffp-contract=off, where it packs them into a register (vfmaddsub); not so without that packing.
+# For modules that hold such code; the test bits.unfused finds them.
+function(unfused target)
+  if(FLOWSLIDE_SAME_BITS)
+    target_compile_options(${target} PRIVATE -fno-tree-vectorize)
+  endif()
+endfunction()
+
 # add_rooms(name room ...)
 # The rooms of a large module, lower ones first: each is a module name_room in the folder name/room.
 # flowslide::name stands for all of them.
