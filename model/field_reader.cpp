@@ -69,10 +69,14 @@ std::string trimmed(std::string text) {
 
 /// Text of a root attribute, empty if there is none.
 std::string root_text(const std::filesystem::path& path, hid_t file, const char* name) {
-  if (H5Aexists(file, name) <= 0) return "";
+  const htri_t there = H5Aexists(file, name);
+  if (there == 0) return "";
   const Hdf5Handle attribute(H5Aopen(file, name, H5P_DEFAULT), &H5Aclose);
   const Hdf5Handle type(H5Aget_type(attribute), &H5Tclose);
   const Hdf5Handle space(H5Aget_space(attribute), &H5Sclose);
+  // A disk that refuses to be read is not a file without the attribute.
+  if (there < 0 || !attribute.valid() || !type.valid() || !space.valid())
+    throw_file_error(path, "", fmt::format("attribute '{}' cannot be read", name));
   if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0 ||
       H5Tget_size(type) > kLongestText || H5Sget_simple_extent_npoints(space) != 1)
     return "";
