@@ -19,6 +19,7 @@ void add_convert(CLI::App& app, Command& action);
 void add_point(CLI::App& app, Command& action);
 void add_motion(CLI::App& app, Command& action);
 void add_report(CLI::App& app, Command& action);
+void add_study(CLI::App& app, Command& action);
 void add_verify(CLI::App& app, Command& action);
 void add_bench(CLI::App& app, Command& action);
 void add_schema(CLI::App& app, Command& action);
