@@ -70,10 +70,7 @@ void StudyDisplay::begin(const std::filesystem::path& folder) {
                plan_.nodes.size(), done);
     std::fflush(stdout);
   }
-  for (const study::Row& row : plan_.rows)
-    if (!row.problem.empty())
-      fmt::print(stderr, "row {} ({}) cannot run: {}\n", row.number, row.label(),
-                 harmless(row.problem));
+  for (const std::string& line : failures()) fmt::print(stderr, "failed before: {}\n", line);
 }
 
 void StudyDisplay::plan() const {
@@ -182,11 +179,28 @@ void StudyDisplay::close() {
   std::fflush(stdout);
 }
 
-void StudyDisplay::list_failures() const {
-  for (const study::Row& row : plan_.rows)
-    if (progress_.row_state(row) == State::failed)
-      fmt::print("row {:>4}  failed   {}: {}\n", row.number, harmless(row.label()),
-                 harmless(first_line(progress_.cause(row))));
+std::vector<std::string> StudyDisplay::failures() const {
+  std::vector<std::pair<std::string, std::vector<const study::Row*>>> causes;
+  for (const study::Row& row : plan_.rows) {
+    if (progress_.row_state(row) != State::failed) continue;
+    const std::string cause = first_line(progress_.cause(row));
+    const auto known = std::find_if(causes.begin(), causes.end(),
+                                    [&](const auto& c) { return c.first == cause; });
+    if (known == causes.end())
+      causes.push_back({cause, {&row}});
+    else
+      known->second.push_back(&row);
+  }
+  std::vector<std::string> lines;
+  for (const auto& [cause, rows] : causes) {
+    std::vector<std::size_t> numbers;
+    for (const study::Row* row : rows) numbers.push_back(row->number);
+    lines.push_back(harmless(
+        rows.size() == 1
+            ? fmt::format("row {} ({}): {}", numbers[0], rows[0]->label(), cause)
+            : fmt::format("rows {} ({} of them): {}", fmt::join(numbers, ", "), rows.size(), cause)));
+  }
+  return lines;
 }
 
 void StudyDisplay::end(const std::filesystem::path& folder, const study::Table& table) const {
@@ -210,7 +224,7 @@ void StudyDisplay::end(const std::filesystem::path& folder, const study::Table& 
     return;
   }
   if (kind_ == StudyOutput::quiet) return;
-  list_failures();
+  for (const std::string& line : failures()) fmt::print("failed: {}\n", line);
   fmt::print("{:<24} {} done, {} failed\n", "rows", done, failed);
   if (const study::Column* runout = table.find("runout_m")) {
     std::vector<double> values;
@@ -251,7 +265,7 @@ void StudyDisplay::status(const std::filesystem::path& folder, double bytes) con
                 {"rows", list}});
     return;
   }
-  list_failures();
+  for (const std::string& line : failures()) fmt::print("failed: {}\n", line);
   fmt::print("{}: {} rows done, {} failed, {} open; {} of {} stages; {:.1f} MB\n", plan_.name, done,
              failed, open, progress_.count(State::done), plan_.nodes.size(), bytes / 1e6);
 }

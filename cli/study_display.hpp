@@ -5,6 +5,7 @@
 #include <chrono>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace flowslide::cli {
 
@@ -32,7 +33,8 @@ class StudyDisplay {
   void tick(const study::PoolView& view);
   [[nodiscard]] std::string total(const study::PoolView& view) const;
   [[nodiscard]] std::string name_of(std::size_t node) const;
-  void list_failures() const;
+  /// Rows with the same cause on one line: a mistake in one setting stops many.
+  [[nodiscard]] std::vector<std::string> failures() const;
 
   const study::Plan& plan_;
   const study::StudyState& progress_;

@@ -14,6 +14,12 @@ namespace {
 constexpr int kSchema = 1;
 constexpr std::string_view kGone = ".gone";
 
+/// Two processes may clear the same away.
+void remove_waste(const fs::path& path) {
+  std::error_code ignored;
+  fs::remove_all(path, ignored);
+}
+
 std::optional<Json> read(const fs::path& path) {
   auto file = read_sealed(path).json;
   if (!file || !file->contains("schema") || (*file)["schema"] != kSchema) return std::nullopt;
@@ -91,9 +97,9 @@ void Store::drop_files(const std::string& stage, const std::string& key) const {
   const fs::path folder = result(stage, key), gone = folder.string() + std::string(kGone);
   std::error_code error;
   if (!fs::exists(fs::symlink_status(folder, error))) return;
-  remove_path(gone);
+  remove_waste(gone);
   rename_durably(folder, gone);
-  remove_path(gone);
+  remove_waste(gone);
 }
 
 void Store::sweep() const {
@@ -101,9 +107,9 @@ void Store::sweep() const {
   for (const auto& stage : fs::directory_iterator(folder_ / "stages", error)) {
     if (!stage.is_directory() || stage.is_symlink()) continue;
     std::vector<fs::path> gone;
-    for (const auto& entry : fs::directory_iterator(stage.path()))
+    for (const auto& entry : fs::directory_iterator(stage.path(), error))
       if (entry.path().extension() == kGone) gone.push_back(entry.path());
-    for (const fs::path& path : gone) remove_path(path);
+    for (const fs::path& path : gone) remove_waste(path);
   }
 }
 
