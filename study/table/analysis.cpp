@@ -47,13 +47,9 @@ class Analyst {
     f_.repeats = group_rows(groups_of(plan));
     choose_variant();
     f_.results = plan.analysis.results.empty() ? usual_results(table) : plan.analysis.results;
-    for (const std::string& name : f_.results) {
-      const Column* c = table.find(name);
-      if (!c || !c->is_number)
-        throw InputError(fmt::format(
-            "{}: analysis.results: the table has no column of numbers '{}' (yet). Take one of: {}.",
-            plan.file.string(), name, fmt::join(usual_results(table), ", ")));
-    }
+    std::erase_if(f_.results, [&](const std::string& name) {
+      return !is_there(name, "analysis.results");
+    });
   }
 
   StudyFindings run() {
@@ -70,6 +66,17 @@ class Analyst {
   }
 
  private:
+  /// Is there such a column of numbers? Where a row is done it has to be.
+  [[nodiscard]] bool is_there(const std::string& name, std::string_view key) const {
+    const Column* c = table_.find(name);
+    if (c && c->is_number) return true;
+    const std::vector<std::string>& states = table_.find("state")->text;
+    if (std::find(states.begin(), states.end(), "done") == states.end()) return false;
+    throw InputError(fmt::format(
+        "{}: {}: the table has no column of numbers '{}'. Take one of its header, such as {}.",
+        plan_.file.string(), key, name, fmt::join(usual_results(table_), ", ")));
+  }
+
   void choose_variant() {
     std::map<std::string, std::size_t> count;
     for (const auto& rows : f_.repeats.groups) ++count[plan_.rows[rows[0]].variant];
@@ -109,9 +116,26 @@ class Analyst {
     return pairs;
   }
 
+  /// Does an input set a stage that found the result, or one before it?
+  [[nodiscard]] bool feeds(const Column& x, const Column& y) const {
+    const auto n = std::find_if(y.node.begin(), y.node.end(),
+                                [](std::size_t node) { return node != kNoNode; });
+    if (n == y.node.end()) return true;
+    std::set<std::string> stages{plan_.nodes[*n].stage.name};
+    for (const std::size_t before : plan_.nodes[*n].before)
+      stages.insert(plan_.nodes[before].stage.name);
+    for (const Input& input : plan_.inputs)
+      if (input.name == x.name)
+        for (const std::string& path : input.settings) {
+          const std::string stage = path.substr(std::string_view("stages.").size());
+          if (stages.contains(stage.substr(0, stage.find('.')))) return true;
+        }
+    return false;
+  }
+
   [[nodiscard]] bool is_cause(const Column& x, const Column& y) const {
     if (&x == &y || !x.is_number || !varies(x)) return false;
-    if (x.role == Role::input) return true;
+    if (x.role == Role::input) return feeds(x, y);
     if (x.name.starts_with("motion_") && x.name != "motion_dt_s") return true;
     return x.name.starts_with("liquefaction_depth_") && !y.name.starts_with("liquefaction_depth_");
   }
@@ -127,6 +151,7 @@ class Analyst {
 
   void add_swing(const Input& input, const Column& y) {
     const Column& x = *table_.find(input.name);
+    if (!feeds(x, y)) return;
     const std::vector<double> result = means(y);
     Effect effect;
     if (input.unit) {
@@ -145,12 +170,8 @@ class Analyst {
       for (const Column& c : table_.columns)
         if (c.name.starts_with("liquefaction_depth_")) pairs.emplace_back(c.name, "runout_m");
     for (const auto& [x, y] : pairs) {
-      const Column *cx = table_.find(x), *cy = table_.find(y);
-      if (!cx || !cy || !cx->is_number || !cy->is_number)
-        throw InputError(fmt::format("{}: analysis.thresholds: the table has no columns of numbers "
-                                     "'{}' and '{}' (yet). Take two of its header.",
-                                     plan_.file.string(), x, y));
-      const Pairs p = observations(*cx, *cy);
+      if (!is_there(x, "analysis.thresholds") || !is_there(y, "analysis.thresholds")) continue;
+      const Pairs p = observations(*table_.find(x), *table_.find(y));
       f_.thresholds.push_back({x, y, fit_ramp(p.x, p.y, plan_.analysis.seed)});
     }
   }
