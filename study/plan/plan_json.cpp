@@ -19,6 +19,21 @@ Settings settings_from(const Json& json) {
   return settings;
 }
 
+/// Conversions of the library take any number for any type.
+std::size_t index_from(const Json& json) { return static_cast<std::size_t>(whole_number(json)); }
+
+std::vector<std::size_t> indices_from(const Json& json) {
+  std::vector<std::size_t> indices;
+  for (const Json& i : json) indices.push_back(index_from(i));
+  return indices;
+}
+
+int small_from(const Json& json) {
+  const std::uint64_t number = whole_number(json);
+  validate(number < 1'000'000, "{} is too large", number);
+  return static_cast<int>(number);
+}
+
 Json ports_json(const std::vector<Port>& ports) {
   Json list = Json::array();
   for (const Port& p : ports) list.push_back({p.name, p.kind, p.file});
@@ -56,20 +71,20 @@ Node node_from(const Json& json) {
   WorkflowStage& stage = node.stage;
   stage.name = json.at("stage");
   stage.type.name = json.at("uses");
-  stage.type.version = json.at("version");
+  stage.type.version = small_from(json.at("version"));
   stage.type.checkpoints = json.at("checkpoints");
   stage.type.reads_warnings = json.at("reads_warnings");
   stage.type.inputs = ports_from(json.at("inputs"));
   stage.type.outputs = ports_from(json.at("outputs"));
   stage.prepared.settings = json.at("settings");
-  node.before = json.at("before").get<std::vector<std::size_t>>();
+  node.before = indices_from(json.at("before"));
   for (const Json& link : json.at("links")) {
-    stage.inputs.push_back({link.at(0), link.at(1), link.at(2)});
+    stage.inputs.push_back({link.at(0), index_from(link.at(1)), link.at(2)});
     validate(stage.inputs.back().from_stage < node.before.size(), "a link leads nowhere");
   }
   stage.warnings = json.at("warnings").get<std::vector<std::string>>();
   node.recipe = json.at("recipe");
-  node.row = json.at("row");
+  node.row = index_from(json.at("row"));
   return node;
 }
 
@@ -88,17 +103,17 @@ Json row_json(const Row& row) {
 }
 
 Row row_from(const Json& json) {
-  return {.number = json.at("number"),
+  return {.number = index_from(json.at("number")),
           .id = json.at("id"),
           .variant = json.at("variant"),
           .workflow = json.at("workflow").get<std::string>(),
           .overrides = json.at("set").get<std::vector<std::string>>(),
           .values = settings_from(json.at("values")),
-          .repeat = json.at("repeat"),
+          .repeat = index_from(json.at("repeat")),
           .disturbed = settings_from(json.at("disturbed")),
-          .nodes = json.at("nodes").get<std::vector<std::size_t>>(),
+          .nodes = indices_from(json.at("nodes")),
           .problem = json.at("problem"),
-          .code = json.at("code")};
+          .code = small_from(json.at("code"))};
 }
 
 }  // namespace
@@ -140,7 +155,7 @@ Plan plan_from(const Json& json) {
   plan.limits.stage_seconds = json.at("stage_seconds");
   plan.analysis.results = json.at("results").get<std::vector<std::string>>();
   plan.analysis.thresholds = settings_from(json.at("thresholds"));
-  plan.analysis.seed = json.at("seed");
+  plan.analysis.seed = whole_number(json.at("seed"));
   for (const Json& i : json.at("inputs")) {
     Input& input = plan.inputs.emplace_back();
     input.name = i.at("name");
@@ -158,6 +173,8 @@ Plan plan_from(const Json& json) {
     for (const std::size_t node : plan.rows.back().nodes)
       validate(node < plan.nodes.size(), "a row names a stage that is not there");
   }
+  for (const Node& node : plan.nodes)
+    validate(node.row < plan.rows.size(), "a stage names a row that is not there");
   return plan;
 }
 

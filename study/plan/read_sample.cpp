@@ -85,6 +85,8 @@ std::size_t index_of(const Sample& sample, const YamlNode& node) {
 }
 
 void read_correlations(Sample& sample, const YamlNode& node) {
+  if (node.kind() != YamlNode::Kind::list)
+    throw node.error("is no list. Write [[one input, another input, coefficient]].");
   for (std::size_t i = 0; i < node.size(); ++i) {
     const YamlNode row = node.item(i);
     if (row.size() != 3)

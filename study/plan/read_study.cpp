@@ -111,7 +111,10 @@ void read_analysis(StudyFile& study, const YamlNode& node) {
   if (const auto results = node.find("results")) study.analysis.results = read_texts(*results);
   if (const auto seed = node.find("seed"))
     study.analysis.seed = read_count(*seed, 0, static_cast<std::size_t>(1) << 62u);
-  if (const auto pairs = node.find("thresholds"))
+  const auto pairs = node.find("thresholds");
+  if (pairs && pairs->kind() != YamlNode::Kind::list)
+    throw pairs->error("is no list of pairs. Write [[x, y]].");
+  if (pairs)
     for (std::size_t i = 0; i < pairs->size(); ++i) {
       const YamlNode pair = pairs->item(i);
       if (pair.size() != 2) throw pair.error("is no pair of columns. Write [x, y].");

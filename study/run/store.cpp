@@ -65,11 +65,13 @@ std::optional<Failure> Store::failure(const std::string& stage, const std::strin
   const auto json = read(beside(stage, key, ".failed.json"));
   if (!json) return std::nullopt;
   try {
-    return Failure{.code = json->at("code"),
+    return Failure{.code = static_cast<int>(whole_number(json->at("code")) % 256u),
                    .text = json->at("text"),
                    .program = json->at("program"),
                    .permanent = json->at("permanent")};
   } catch (const Json::exception&) {
+    return std::nullopt;
+  } catch (const InputError&) {
     return std::nullopt;
   }
 }
