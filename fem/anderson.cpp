@@ -20,7 +20,11 @@ bool Anderson::find_shares(Eigen::Index columns, const Eigen::VectorXd& f) {
   qr.compute(weights_.asDiagonal() * df_.leftCols(columns));
   target_ = weights_.cwiseProduct(f);
   const Eigen::Index pivots = qr.nonzeroPivots();
-  qr.householderQ().setLength(pivots).adjoint().applyThisOnTheLeft(target_, work_);
+  const Eigen::Index n = target_.size();
+  for (Eigen::Index k = 0; k < pivots; ++k)
+    target_.bottomRightCorner(n - k, 1).applyHouseholderOnTheLeft(
+        qr.matrixQR().block<Eigen::Dynamic, 1>(k + 1, k, n - k - 1, 1), qr.hCoeffs()[k],
+        work_.data());
   qr.matrixQR()
       .topLeftCorner(pivots, pivots)
       .triangularView<Eigen::Upper>()

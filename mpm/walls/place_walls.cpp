@@ -205,13 +205,16 @@ void expect_few_lines(const Placing<Dim>& place) {
 
 /// The contact nodes are those of all entries; entries count in them from now on.
 template <int Dim>
-void number_nodes(const std::vector<std::int32_t>& grid_node, Contact<Dim>& c) {
+void number_nodes(const std::vector<std::int32_t>& grid_node, std::size_t blocks, Contact<Dim>& c) {
   c.nodes = grid_node;
   std::sort(c.nodes.begin(), c.nodes.end());
   c.nodes.erase(std::unique(c.nodes.begin(), c.nodes.end()), c.nodes.end());
   for (const std::int32_t node : grid_node)
     c.node.push_back(static_cast<std::int32_t>(
         std::lower_bound(c.nodes.begin(), c.nodes.end(), node) - c.nodes.begin()));
+  c.in_block.assign(blocks, 0);
+  for (const std::int32_t node : c.nodes)
+    c.in_block[node / kBlockNodes<Dim>] |= std::uint64_t{1} << node % kBlockNodes<Dim>;
 }
 
 template <int Dim>
@@ -249,7 +252,7 @@ void place_walls(const Grid<Dim>& grid, const Ground& ground, const Rollers& rol
   }
   for (std::size_t i = 0; i < c.absorbing.dashpots.size(); ++i)
     place_dashpot<Basis>(place, c.absorbing, static_cast<std::int32_t>(i));
-  number_nodes(place.grid_node, c);
+  number_nodes(place.grid_node, grid.blocks.size(), c);
   size_buffers(c);
 }
 
