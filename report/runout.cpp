@@ -1,7 +1,6 @@
 #include "report/runout.hpp"
 
 #include "core/check.hpp"
-#include "model/front.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +35,8 @@ double front_position(std::span<const std::array<double, 3>> positions,
            "{} material points count for the runout (the front is the fifth-farthest one) refine "
            "the points, or set counts_for_runout on the materials that flow",
            x.size());
-  return front_of(x);
+  std::nth_element(x.begin(), x.begin() + (kFrontRank - 1), x.end(), std::greater<>());
+  return x[kFrontRank - 1];
 }
 
 double runout(std::span<const std::array<double, 3>> positions,

@@ -3,9 +3,13 @@
 #include <cstdint>
 #include <span>
 
-/// Where a flow ends; model/front.hpp. `counts` is 1 for points of materials that take part (all
-/// but the foundation).
+/// Where a flow ends. The definition is that of the case study this program follows (Sordo, Rathje
+/// and Kumar 2025, Soil Dyn. Earthq. Eng. 194, 109371): "fifth-farthest material point from the
+/// toe". `counts` is 1 for points of materials that take part (all but the foundation).
 namespace flowslide {
+
+/// Rank of the point that marks the front: a handful of detached points must not.
+inline constexpr std::size_t kFrontRank = 5;
 
 /// x of the fifth-farthest counted point [m]. Throws InputError if there are fewer than five, if
 /// the arrays differ in length or if a position is not finite.

@@ -1,11 +1,13 @@
 #include "mpm/solver/balance.hpp"
 
-#include "model/front.hpp"
-
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace flowslide::mpm {
+
+/// The paper's runout rule: the fifth-farthest point, so that a few lone points do not decide.
+constexpr std::ptrdiff_t kFrontRank = 5;
 
 /// D of a point per direction [cells^2], with which its affine field carries energy.
 template <int Dim>
@@ -57,7 +59,7 @@ PointSums<Dim> sum_points(const Simulation<Dim>& s, const Points<Dim>& p) {
 
 namespace {
 
-/// Front and runout.
+/// Front and runout by the fifth-farthest point.
 template <int Dim>
 void measure_front(const Simulation<Dim>& s, double toe, const std::vector<bool>& counts,
                    std::vector<double>& scratch, MpmSample& r) {
@@ -65,9 +67,12 @@ void measure_front(const Simulation<Dim>& s, double toe, const std::vector<bool>
   for (const Points<Dim>* p : {&s.points, &s.gone})
     for (std::size_t q = 0; q < p->size(); ++q)
       if (counts[p->material[q]]) scratch.push_back(p->x[0][q]);
-  if (scratch.empty()) return;
-  r.front = front_of(scratch);
-  r.runout = std::max(0.0, r.front - toe);
+  const auto rank = std::min<std::ptrdiff_t>(kFrontRank, std::ssize(scratch)) - 1;
+  if (rank >= 0) {
+    std::nth_element(scratch.begin(), scratch.begin() + rank, scratch.end(), std::greater<>());
+    r.front = scratch[rank];
+    r.runout = std::max(0.0, r.front - toe);
+  }
 }
 
 /// Where the energy has gone; docs/theory/mpm.md, section Balances.
