@@ -3,15 +3,24 @@
 #include <algorithm>
 
 namespace flowslide::fem {
+namespace {
+
+/// One of the reflections of a factorisation: I - tau v v^T with v = (1, essential) from row k on.
+template <class V>
+void reflect(const V& essential, double tau, Eigen::Index k, Eigen::VectorXd& x) {
+  if (tau == 0.0) return;
+  const double along = essential.dot(x.tail(essential.size())) + x[k];
+  x[k] -= tau * along;
+  x.tail(essential.size()) -= along * (tau * essential);
+}
+
+}  // namespace
 
 Anderson::Anderson(Eigen::VectorXd weights, int depth)
     : weights_(std::move(weights)),
       dx_(weights_.size(), depth),
       df_(weights_.size(), depth),
-      sum_(weights_.size(), depth),
-      share_(depth),
-      correction_(weights_.size()),
-      work_(1) {
+      share_(depth) {
   for (int columns = 0; columns <= depth; ++columns) qr_.emplace_back(weights_.size(), columns);
 }
 
@@ -20,11 +29,8 @@ bool Anderson::find_shares(Eigen::Index columns, const Eigen::VectorXd& f) {
   qr.compute(weights_.asDiagonal() * df_.leftCols(columns));
   target_ = weights_.cwiseProduct(f);
   const Eigen::Index pivots = qr.nonzeroPivots();
-  const Eigen::Index n = target_.size();
   for (Eigen::Index k = 0; k < pivots; ++k)
-    target_.bottomRightCorner(n - k, 1).applyHouseholderOnTheLeft(
-        qr.matrixQR().block<Eigen::Dynamic, 1>(k + 1, k, n - k - 1, 1), qr.hCoeffs()[k],
-        work_.data());
+    reflect(qr.matrixQR().col(k).tail(target_.size() - k - 1), qr.hCoeffs()[k], k, target_);
   qr.matrixQR()
       .topLeftCorner(pivots, pivots)
       .triangularView<Eigen::Upper>()
@@ -49,10 +55,8 @@ void Anderson::advance(Eigen::VectorXd& x, const Eigen::VectorXd& f) {
     x += f;
     return;
   }
-  sum_.leftCols(columns) = dx_.leftCols(columns) + df_.leftCols(columns);
-  correction_.noalias() = sum_.leftCols(columns) * share_.head(columns);
   x += f;
-  x -= correction_;
+  for (Eigen::Index k = 0; k < columns; ++k) x -= share_[k] * (dx_.col(k) + df_.col(k));
 }
 
 }  // namespace flowslide::fem

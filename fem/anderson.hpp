@@ -26,8 +26,7 @@ class Anderson {
   int used_ = 0;             ///< number of x seen since the restart
   // Buffers: Eigen's own solve() allocates.
   std::vector<Eigen::ColPivHouseholderQR<Eigen::MatrixXd>> qr_;  ///< by number of columns
-  Eigen::MatrixXd sum_;                                          ///< dx_ + df_
-  Eigen::VectorXd target_, share_, correction_, work_;
+  Eigen::VectorXd target_, share_;
 };
 
 }  // namespace flowslide::fem

@@ -13,7 +13,6 @@
 #include <nlohmann/json.hpp>
 
 using namespace flowslide;
-using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
 namespace {
@@ -46,7 +45,8 @@ Json facts_of(const fs::path& folder) {
   Json all = Json::object();
   for (const fs::directory_entry& file : fs::directory_iterator(folder)) {
     if (file.path().extension() != ".json" || file.path().filename() == "stage.json") continue;
-    for (const auto& [key, value] : Json::parse(read_text_file(file.path())).items())
+    const Json found = Json::parse(read_text_file(file.path()));
+    for (const auto& [key, value] : found.items())
       if (!is_clock(key)) all[key] = value;
   }
   return all;
