@@ -1,33 +1,7 @@
 #include "tests/mpm/scene.hpp"
-
-#include <atomic>
-#include <cstdlib>
-#include <new>
+#include "tests/support/count_allocations.hpp"
 
 #include <catch2/catch.hpp>
-
-namespace {
-std::atomic<long> allocations{0};
-}
-
-// Counts every allocation of this executable.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* p = std::malloc(size ? size : 1)) return p;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t align) {
-  ++allocations;
-  const auto a = static_cast<std::size_t>(align);
-  if (void* p = std::aligned_alloc(a, (size + a - 1) / a * a)) return p;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
-  std::free(p);
-}
 
 using namespace flowslide;
 using namespace flowslide::mpm;
