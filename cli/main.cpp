@@ -75,6 +75,7 @@ int run(int argc, char** argv) {
   flowslide::cli::Command action;
   flowslide::cli::add_run(app, action);
   flowslide::cli::add_check(app, action);
+  flowslide::cli::add_plot(app, action);
   flowslide::cli::add_inspect(app, action);
   flowslide::cli::add_motion(app, action);
   flowslide::cli::add_point(app, action);
