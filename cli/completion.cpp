@@ -62,8 +62,8 @@ std::string bash_command(const CommandRow& c) {
     if (o.positional) continue;
     if (o.name != "--help") names += " " + o.name;
     if (o.takes != Takes::nothing)
-      values +=
-          fmt::format("    {}:{}) {}; return ;;\n", pattern(c.name), o.name, bash_words(c, o.takes));
+      values += fmt::format("    {}:{}) {}; return ;;\n", pattern(c.name), o.name,
+                            bash_words(c, o.takes));
   }
   const OptionRow* first = positional(c);
   return values + fmt::format(

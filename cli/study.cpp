@@ -46,9 +46,10 @@ fs::path study_folder(const StudyArguments& args, const study::Plan& plan) {
   const fs::path folder = args.out.empty() ? fs::path("runs") / plan.name : fs::path(args.out);
   std::error_code error;
   if (!fs::exists(folder / study::kPlanFile, error) && fs::exists(folder / "run.lock", error))
-    throw InputError(fmt::format("{}: holds a single run (its results would be mixed with those of "
-                                 "the study). Choose another --out.",
-                                 folder.string()));
+    throw InputError(
+        fmt::format("{}: holds a single run (its results would be mixed with those of "
+                    "the study). Choose another --out.",
+                    folder.string()));
   return fs::absolute(folder);
 }
 
@@ -94,8 +95,8 @@ int run(const StudyArguments& args) {
   const fs::path folder = study_folder(args, plan);
   const study::Store store(folder);
   study::StudyState progress(plan, store);
-  const StudyOutput kind = args.json    ? StudyOutput::json
-                           : args.quiet ? StudyOutput::quiet
+  const StudyOutput kind = args.json                      ? StudyOutput::json
+                           : args.quiet                   ? StudyOutput::quiet
                            : ::isatty(STDOUT_FILENO) == 1 ? StudyOutput::terminal
                                                           : StudyOutput::lines;
   StudyDisplay display(plan, progress, kind);
@@ -129,7 +130,10 @@ struct Opened {
   study::Store store;
   study::StudyState progress;
   explicit Opened(const std::string& name)
-      : folder(fs::absolute(name)), plan(study::read_plan(folder)), store(folder), progress(plan, store) {}
+      : folder(fs::absolute(name)),
+        plan(study::read_plan(folder)),
+        store(folder),
+        progress(plan, store) {}
 };
 
 int status(const StudyArguments& args) {
@@ -181,8 +185,9 @@ void add_study_run(CLI::App& study, Command& action) {
       ->check(CLI::Range(1, 4096));
   command->add_option("--threads", args->threads, "threads of all of them together [all]")
       ->check(CLI::Range(1, 4096));
-  command->add_option("--allow-python", args->allowed_programs,
-                      "interpreter that the workflow may name in 'python'")
+  command
+      ->add_option("--allow-python", args->allowed_programs,
+                   "interpreter that the workflow may name in 'python'")
       ->take_all()
       ->allow_extra_args(false);
   command->add_flag("--retry", args->retry, "also what has failed for good before");

@@ -117,8 +117,7 @@ void StudyDisplay::ended(const study::StageEnd& end) {
       failed && progress_.node(end.node).failure ? progress_.node(end.node).failure->text : "";
   ++ended_;
   close();
-  if (failed)
-    fmt::print(stderr, "failed: {}: {}\n", name_of(end.node), harmless(text));
+  if (failed) fmt::print(stderr, "failed: {}: {}\n", name_of(end.node), harmless(text));
   if (kind_ == StudyOutput::json) {
     print_json({{"event", failed ? "failed" : "done"},
                 {"stage", node.stage.name},
@@ -131,17 +130,15 @@ void StudyDisplay::ended(const study::StageEnd& end) {
                 {"stages", plan_.nodes.size()}});
   } else if (kind_ == StudyOutput::lines && !failed) {
     fmt::print("{:>5}/{} {}{}\n", progress_.count(State::done), plan_.nodes.size(),
-               name_of(end.node),
-               end.found ? ", found" : fmt::format(", {:.1f} s", end.seconds));
+               name_of(end.node), end.found ? ", found" : fmt::format(", {:.1f} s", end.seconds));
     std::fflush(stdout);
   }
 }
 
 std::string StudyDisplay::total(const study::PoolView& view) const {
-  const double share =
-      view.all == 0 ? 1.0
-                    : static_cast<double>(view.done + view.failed + view.blocked) /
-                          static_cast<double>(view.all);
+  const double share = view.all == 0 ? 1.0
+                                     : static_cast<double>(view.done + view.failed + view.blocked) /
+                                           static_cast<double>(view.all);
   constexpr int kBar = 20;
   const int full = static_cast<int>(share * kBar);
   std::string text = fmt::format("all     [{:#<{}}{:-<{}}] {}/{} stages", "", full, "", kBar - full,
@@ -184,8 +181,8 @@ std::vector<std::string> StudyDisplay::failures() const {
   for (const study::Row& row : plan_.rows) {
     if (progress_.row_state(row) != State::failed) continue;
     const std::string cause = first_line(progress_.cause(row));
-    const auto known = std::find_if(causes.begin(), causes.end(),
-                                    [&](const auto& c) { return c.first == cause; });
+    const auto known =
+        std::find_if(causes.begin(), causes.end(), [&](const auto& c) { return c.first == cause; });
     if (known == causes.end())
       causes.push_back({cause, {&row}});
     else
@@ -196,9 +193,9 @@ std::vector<std::string> StudyDisplay::failures() const {
     std::vector<std::size_t> numbers;
     for (const study::Row* row : rows) numbers.push_back(row->number);
     lines.push_back(harmless(
-        rows.size() == 1
-            ? fmt::format("row {} ({}): {}", numbers[0], rows[0]->label(), cause)
-            : fmt::format("rows {} ({} of them): {}", fmt::join(numbers, ", "), rows.size(), cause)));
+        rows.size() == 1 ? fmt::format("row {} ({}): {}", numbers[0], rows[0]->label(), cause)
+                         : fmt::format("rows {} ({} of them): {}", fmt::join(numbers, ", "),
+                                       rows.size(), cause)));
   }
   return lines;
 }

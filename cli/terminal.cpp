@@ -150,9 +150,9 @@ void Display::progress(std::string_view stage, double fraction, std::string_view
     const int tenth = static_cast<int>(fraction * 10.0);
     if (tenth <= last_tenth_ || tenth == 10) return;
     last_tenth_ = tenth;
-    fmt::print("{}\n", cut_to(fmt::format("{:<{}} {:>3} %  ETA {:>5}  {}", stage, kNameWidth, percent,
-                                       eta, text),
-                           columns_));
+    fmt::print("{}\n", cut_to(fmt::format("{:<{}} {:>3} %  ETA {:>5}  {}", stage, kNameWidth,
+                                          percent, eta, text),
+                              columns_));
     std::fflush(stdout);
     return;
   }
@@ -164,8 +164,8 @@ void Display::progress(std::string_view stage, double fraction, std::string_view
   const std::string drawn =
       bar > 0 ? fmt::format("[{:#<{}}{:-<{}}] ", "", full, "", bar - full) : "";
   fmt::print("\r\033[K{}", cut_to(fmt::format("{:<{}} {}{:>3} %  ETA {:>5}  {}", stage, kNameWidth,
-                                           drawn, percent, eta, text),
-                               columns_));
+                                              drawn, percent, eta, text),
+                                  columns_));
   std::fflush(stdout);
   bar_on_line_ = true;
 }

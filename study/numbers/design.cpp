@@ -18,8 +18,8 @@ Points hypercube(std::size_t count, std::size_t inputs, std::uint64_t seed) {
     Random random(seed, d);
     const std::vector<std::size_t> stratum = random.permutation(count);
     for (std::size_t i = 0; i < count; ++i)
-      points[i][d] = (static_cast<double>(stratum[i]) + random.uniform()) /
-                     static_cast<double>(count);
+      points[i][d] =
+          (static_cast<double>(stratum[i]) + random.uniform()) / static_cast<double>(count);
   }
   return points;
 }

@@ -44,13 +44,14 @@ void check(const Distribution& d) {
     validate(d.from < d.to, "from {:g} to {:g} (there is nothing between) give from < to", d.from,
              d.to);
     validate(d.shape == Shape::uniform || (d.mode >= d.from && d.mode <= d.to),
-             "mode {:g} is outside {:g} to {:g} (it is the likeliest value) give one inside", d.mode,
-             d.from, d.to);
+             "mode {:g} is outside {:g} to {:g} (it is the likeliest value) give one inside",
+             d.mode, d.from, d.to);
     return;
   }
-  validate(std::isfinite(d.mean) && d.deviation > 0.0,
-           "mean {:g}, deviation {:g} (a number without spread is no input) give a deviation above 0",
-           d.mean, d.deviation);
+  validate(
+      std::isfinite(d.mean) && d.deviation > 0.0,
+      "mean {:g}, deviation {:g} (a number without spread is no input) give a deviation above 0",
+      d.mean, d.deviation);
   validate(d.shape == Shape::normal || d.mean > 0.0,
            "mean {:g} (a lognormal number is positive) give a mean above 0", d.mean);
   validate(d.min < d.max && below(d, d.max) - below(d, d.min) > 1e-6,

@@ -7,7 +7,8 @@ namespace flowslide::study {
 
 enum class Shape { uniform, triangular, normal, lognormal };
 
-/// A distribution of a number, in the unit in which the user gave it. docs/theory/study-statistics.md
+/// A distribution of a number, in the unit in which the user gave it.
+/// docs/theory/study-statistics.md
 struct Distribution {
   Shape shape = Shape::uniform;
   double from = kUnset, mode = kUnset, to = kUnset;  ///< uniform, triangular

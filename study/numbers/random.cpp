@@ -21,9 +21,7 @@ Random::Random(std::uint64_t seed, std::uint64_t stream)
 
 std::uint64_t Random::next() { return mixed(state_ += kStep); }
 
-double Random::uniform() {
-  return (static_cast<double>(next() >> 11u) + 0.5) * 0x1p-53;
-}
+double Random::uniform() { return (static_cast<double>(next() >> 11u) + 0.5) * 0x1p-53; }
 
 std::size_t Random::below(std::size_t n) {
   // What is left over above the largest multiple of n would favour the first numbers.

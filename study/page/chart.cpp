@@ -98,7 +98,8 @@ Svg draw(const ScatterChart& chart) {
   frame.axes(svg, chart.x_label, chart.y_label);
   for (const Dot& d : chart.dots)
     if (is_set(d.scatter))
-      svg.line(frame.x(d.x), frame.y(d.y - d.scatter), frame.x(d.x), frame.y(d.y + d.scatter), "bar");
+      svg.line(frame.x(d.x), frame.y(d.y - d.scatter), frame.x(d.x), frame.y(d.y + d.scatter),
+               "bar");
   for (const Dot& d : chart.dots)
     svg.circle(frame.x(d.x), frame.y(d.y), 4.5, series_class(d.series), d.title);
   if (chart.ramp && is_set(chart.ramp->breach.value)) {
@@ -158,7 +159,9 @@ Svg draw_tornado(std::vector<Swing> swings, double usual_scatter, const std::str
   const double room = std::max(0.15 * (high - low), 1e-9);
   low -= room;
   high += room;
-  const auto x = [&](double v) { return kNames + (v - low) / (high - low) * (kWidth - kNames - 20.0); };
+  const auto x = [&](double v) {
+    return kNames + (v - low) / (high - low) * (kWidth - kNames - 20.0);
+  };
   const double bottom = height - 44.0;
   for (const double v : round_numbers(low, high, 6)) {
     svg.line(x(v), 14.0, x(v), bottom, "grid");

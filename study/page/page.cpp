@@ -94,9 +94,10 @@ class Writer {
   }
 
   void answer() {
-    html_ += "<h2>What comes out</h2><div class='wide'><table><tr><th class='word'>result</th>"
-             "<th>median</th><th>5 to 95 % of the rows</th><th>spread from the inputs</th>"
-             "<th>numerical scatter</th><th>repeated</th></tr>";
+    html_ +=
+        "<h2>What comes out</h2><div class='wide'><table><tr><th class='word'>result</th>"
+        "<th>median</th><th>5 to 95 % of the rows</th><th>spread from the inputs</th>"
+        "<th>numerical scatter</th><th>repeated</th></tr>";
     for (std::size_t i = 0; i < f_.results.size(); ++i) {
       const std::vector<double>& v = f_.exceedance[i].value;
       const Scatter& s = f_.scatter[i];
@@ -109,9 +110,10 @@ class Writer {
           is_set(s.numerical) ? "&plusmn; " + short_number(s.numerical) : "not repeated",
           s.repeated);
     }
-    html_ += "</table></div><p class='soft'>Spread and scatter are standard deviations. The scatter "
-             "is what disturbances leave that mean nothing to the dam: a difference between two rows "
-             "that is not larger is none.</p><ul>";
+    html_ +=
+        "</table></div><p class='soft'>Spread and scatter are standard deviations. The scatter "
+        "is what disturbances leave that mean nothing to the dam: a difference between two rows "
+        "that is not larger is none.</p><ul>";
     for (const Threshold& t : f_.thresholds) threshold(t);
     html_ += "</ul>";
   }
@@ -119,7 +121,8 @@ class Writer {
   void threshold(const Threshold& t) {
     if (!is_set(t.ramp.breach.value)) return;
     const std::string x = escaped(readable(table_, t.x)), y = escaped(readable(table_, t.y));
-    const bool begins = t.ramp.no_breach <= kMostWithout, ends = t.ramp.no_saturation <= kMostWithout;
+    const bool begins = t.ramp.no_breach <= kMostWithout,
+               ends = t.ramp.no_saturation <= kMostWithout;
     html_ += fmt::format("<li>{} against {}: ", y, x);
     html_ += begins ? fmt::format("nothing below {}; ", interval(t.ramp.breach))
                     : "no value of it below which there is nothing; ";
@@ -149,8 +152,12 @@ class Writer {
   }
 
   void scatter_figure(const Relation& r, std::size_t result) {
-    ScatterChart chart{.x_label = readable(table_, r.x), .y_label = readable(table_, r.y),
-                       .dots = {}, .series = {}, .series_label = {}, .ramp = {}};
+    ScatterChart chart{.x_label = readable(table_, r.x),
+                       .y_label = readable(table_, r.y),
+                       .dots = {},
+                       .series = {},
+                       .series_label = {},
+                       .ramp = {}};
     const Column &x = *table_.find(r.x), *by = colour(r.x);
     for (const std::size_t g : f_.groups) {
       const auto& rows = f_.repeats.groups[g];
@@ -158,8 +165,10 @@ class Writer {
       std::vector<double> here;
       for (const std::size_t other : rows)
         if (is_set(x.number[other])) here.push_back(x.number[other]);
-      Dot dot{.x = mean(here), .y = f_.scatter[result].mean[g],
-              .scatter = f_.scatter[result].deviation[g], .series = 0,
+      Dot dot{.x = mean(here),
+              .y = f_.scatter[result].mean[g],
+              .scatter = f_.scatter[result].deviation[g],
+              .series = 0,
               .title = plan_.rows[row].label()};
       if (!is_set(dot.x) || !is_set(dot.y)) continue;
       if (by) {
@@ -202,29 +211,32 @@ class Writer {
 
   void relations() {
     if (f_.relations.empty()) return;
-    html_ += "<h2>What it hangs on</h2><div class='wide'><table><tr><th class='word'>result</th>"
-             "<th class='word'>against</th><th>rank correlation</th><th>slope</th><th>R&sup2;</th>"
-             "<th>rows</th></tr>";
+    html_ +=
+        "<h2>What it hangs on</h2><div class='wide'><table><tr><th class='word'>result</th>"
+        "<th class='word'>against</th><th>rank correlation</th><th>slope</th><th>R&sup2;</th>"
+        "<th>rows</th></tr>";
     for (const Relation& r : f_.relations)
-      html_ += fmt::format("<tr><td class='word'>{}</td><td class='word'>{}</td><td>{}</td>"
-                           "<td>{}</td><td>{}</td><td>{}</td></tr>",
-                           escaped(readable(table_, r.y)), escaped(readable(table_, r.x)),
-                           interval(r.spearman), interval(r.line.slope), short_number(r.line.r2),
-                           r.spearman.rows);
-    html_ += "</table></div><p class='soft'>In brackets: 95 % interval, from resampling the rows."
-             "</p>";
+      html_ += fmt::format(
+          "<tr><td class='word'>{}</td><td class='word'>{}</td><td>{}</td>"
+          "<td>{}</td><td>{}</td><td>{}</td></tr>",
+          escaped(readable(table_, r.y)), escaped(readable(table_, r.x)), interval(r.spearman),
+          interval(r.line.slope), short_number(r.line.r2), r.spearman.rows);
+    html_ +=
+        "</table></div><p class='soft'>In brackets: 95 % interval, from resampling the rows."
+        "</p>";
   }
 
   void comparisons() {
     if (f_.comparisons.empty()) return;
-    html_ += "<h2>Variants</h2><div class='wide'><table><tr><th class='word'>result</th>"
-             "<th class='word'>ratio of means</th><th class='word'>where</th><th>ratio</th></tr>";
+    html_ +=
+        "<h2>Variants</h2><div class='wide'><table><tr><th class='word'>result</th>"
+        "<th class='word'>ratio of means</th><th class='word'>where</th><th>ratio</th></tr>";
     for (const Comparison& c : f_.comparisons)
-      html_ += fmt::format("<tr><td class='word'>{}</td><td class='word'>{} / {}</td>"
-                           "<td class='word'>{}</td><td>{}</td></tr>",
-                           escaped(readable(table_, c.result)), escaped(f_.variant),
-                           escaped(c.variant), escaped(c.where.empty() ? "all" : c.where),
-                           interval(c.ratio));
+      html_ += fmt::format(
+          "<tr><td class='word'>{}</td><td class='word'>{} / {}</td>"
+          "<td class='word'>{}</td><td>{}</td></tr>",
+          escaped(readable(table_, c.result)), escaped(f_.variant), escaped(c.variant),
+          escaped(c.where.empty() ? "all" : c.where), interval(c.ratio));
     html_ += "</table></div>";
   }
 
@@ -232,7 +244,8 @@ class Writer {
     html_ += "<h2>All rows</h2><div class='wide'><table><tr>";
     std::vector<const Column*> columns;
     for (const Column& c : table_.columns) {
-      const bool result = std::find(f_.results.begin(), f_.results.end(), c.name) != f_.results.end();
+      const bool result =
+          std::find(f_.results.begin(), f_.results.end(), c.name) != f_.results.end();
       if (c.name == "row" || c.name == "variant" || c.name == "repeat" || c.role == Role::input ||
           c.name == "state" || c.name == "cause" || result)
         columns.push_back(&c);
@@ -245,17 +258,18 @@ class Writer {
       html_ += "<tr>";
       for (const Column* c : columns) {
         const bool failed = c->name == "state" && c->text[r] == "failed";
-        html_ += fmt::format("<td{}>{}</td>",
-                             failed           ? " class='word failed'"
-                             : c->is_number ? ""
-                                              : " class='word'",
-                             escaped(is_set(c->number[r]) ? fmt::format("{:.4g}", c->number[r])
-                                                          : c->text[r]));
+        html_ += fmt::format(
+            "<td{}>{}</td>",
+            failed         ? " class='word failed'"
+            : c->is_number ? ""
+                           : " class='word'",
+            escaped(is_set(c->number[r]) ? fmt::format("{:.4g}", c->number[r]) : c->text[r]));
       }
       html_ += "</tr>";
     }
-    html_ += "</table></div><p class='soft'>Everything that the stages found: table.csv, table.h5, "
-             "columns.csv. The numbers of this page: analysis.json.</p>";
+    html_ +=
+        "</table></div><p class='soft'>Everything that the stages found: table.csv, table.h5, "
+        "columns.csv. The numbers of this page: analysis.json.</p>";
   }
 
   void end() {

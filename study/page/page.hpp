@@ -8,7 +8,7 @@
 namespace flowslide::study {
 
 struct Page {
-  std::string html;                             ///< one file, opens offline
+  std::string html;                            ///< one file, opens offline
   std::map<std::string, std::string> figures;  ///< SVG by file name
 };
 

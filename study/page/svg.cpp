@@ -55,9 +55,9 @@ void Svg::circle(double x, double y, double radius, std::string_view kind, std::
 
 void Svg::rectangle(double x, double y, double width, double height, std::string_view kind,
                     std::string_view title) {
-  body_ += fmt::format(
-      "<rect x='{}' y='{}' width='{}' height='{}' class='{}'><title>{}</title></rect>", pixels(x),
-      pixels(y), pixels(width), pixels(height), kind, escaped(title));
+  body_ +=
+      fmt::format("<rect x='{}' y='{}' width='{}' height='{}' class='{}'><title>{}</title></rect>",
+                  pixels(x), pixels(y), pixels(width), pixels(height), kind, escaped(title));
 }
 
 void Svg::polyline(const std::string& points, std::string_view kind) {

@@ -10,7 +10,8 @@ class Svg {
   Svg(double width, double height) : width_(width), height_(height) {}
 
   void line(double x1, double y1, double x2, double y2, std::string_view kind);
-  void circle(double x, double y, double radius, std::string_view kind, std::string_view title = "");
+  void circle(double x, double y, double radius, std::string_view kind,
+              std::string_view title = "");
   void rectangle(double x, double y, double width, double height, std::string_view kind,
                  std::string_view title = "");
   /// `points` as "x,y x,y ...".

@@ -66,7 +66,8 @@ void move_grids(Settings& set, const std::vector<Stage>& stages, std::size_t rea
   double cell = kUnset;
   for (const Stage& stage : stages)
     if (stage.uses == "mpm.run" && stage.with)
-      if (const auto node = stage.with->find("cell")) cell = parse_quantity(node->scalar(), Dim::length);
+      if (const auto node = stage.with->find("cell"))
+        cell = parse_quantity(node->scalar(), Dim::length);
   if (!is_set(cell)) return;
   const std::array<double, 2> share = shift_of(realisation);
   for (const Stage& stage : stages) {
@@ -108,15 +109,17 @@ Settings perturbations(const YamlNode& workflow, const Repeat& repeat, std::size
   for (const auto& [path, step] : repeat.scale) {
     const auto node = find_path(workflow, path);
     if (!node)
-      throw InputError(fmt::format("{}: {} is not written in the workflow (a repeat scales what is "
-                                   "there). Add it under 'set'.",
-                                   repeat.place, path));
+      throw InputError(
+          fmt::format("{}: {} is not written in the workflow (a repeat scales what is "
+                      "there). Add it under 'set'.",
+                      repeat.place, path));
     scale(set, *node, path, change_of(realisation, step));
   }
   if (set.empty())
-    throw InputError(fmt::format("{}: nothing of the workflow can be disturbed (it has neither a "
-                                 "motion nor a grid). Name settings under 'scale'.",
-                                 repeat.place));
+    throw InputError(
+        fmt::format("{}: nothing of the workflow can be disturbed (it has neither a "
+                    "motion nor a grid). Name settings under 'scale'.",
+                    repeat.place));
   return set;
 }
 

@@ -53,8 +53,7 @@ std::string located(const std::string& text, const Draft& draft) {
 
 class Planner {
  public:
-  Planner(Plan& plan, std::span<const StageType> types)
-      : plan_(plan), types_(remembering(types)) {}
+  Planner(Plan& plan, std::span<const StageType> types) : plan_(plan), types_(remembering(types)) {}
 
   void add(const Draft& draft) {
     Row& row = plan_.rows.emplace_back();
@@ -96,7 +95,8 @@ class Planner {
       std::set<std::size_t> before;
       for (const Link& link : stage.inputs) {
         const std::size_t from = row.nodes[link.from_stage];
-        text += fmt::format("\ninput {} {} {}", link.port, plan_.nodes[from].recipe, link.from_port);
+        text +=
+            fmt::format("\ninput {} {} {}", link.port, plan_.nodes[from].recipe, link.from_port);
         before.insert(from);
         before.insert(plan_.nodes[from].before.begin(), plan_.nodes[from].before.end());
       }
@@ -164,7 +164,8 @@ std::string problems_of(const Plan& plan) {
   constexpr std::size_t kShown = 20;
   for (std::size_t i = 0; i < std::min(kShown, problems.size()); ++i)
     text += (text.empty() ? "" : "\n") + problems[i].first;
-  if (problems.size() > kShown) text += fmt::format("\nand {} more problems", problems.size() - kShown);
+  if (problems.size() > kShown)
+    text += fmt::format("\nand {} more problems", problems.size() - kShown);
   return text;
 }
 
@@ -214,7 +215,8 @@ Workflow workflow_of(const Plan& plan, std::size_t node) {
     WorkflowStage stage = plan.nodes[n].stage;
     for (Link& link : stage.inputs) {
       const std::size_t from = plan.nodes[n].before[link.from_stage];
-      link.from_stage = static_cast<std::size_t>(std::find(all.begin(), all.end(), from) - all.begin());
+      link.from_stage =
+          static_cast<std::size_t>(std::find(all.begin(), all.end(), from) - all.begin());
     }
     workflow.stages.push_back(std::move(stage));
   }

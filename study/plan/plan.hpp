@@ -12,7 +12,7 @@ namespace flowslide::study {
 
 /// A stage with its settings and all that feeds it: what several rows have in common is one node.
 struct Node {
-  WorkflowStage stage;  ///< without what runs it; links count in `before`
+  WorkflowStage stage;              ///< without what runs it; links count in `before`
   std::vector<std::size_t> before;  ///< nodes that feed it, directly or not, in their order
   std::string recipe;               ///< SHA-256 of all the above
   std::size_t row = 0;              ///< the first that needs it
@@ -26,10 +26,10 @@ struct Row {
   std::vector<std::string> overrides;  ///< as for --set
   Settings values;                     ///< by variable
   std::size_t repeat = 0;
-  Settings disturbed;              ///< what this realisation sets
-  std::vector<std::size_t> nodes;  ///< in the order of its workflow
-  std::string problem;             ///< why it cannot be run; empty if it can
-  int code = 0;                    ///< exit code of the problem
+  Settings disturbed;                       ///< what this realisation sets
+  std::vector<std::size_t> nodes;           ///< in the order of its workflow
+  std::string problem;                      ///< why it cannot be run; empty if it can
+  int code = 0;                             ///< exit code of the problem
   [[nodiscard]] std::string label() const;  ///< "pga 0.3 g, c_soft 0.5, repeat 1"
 };
 

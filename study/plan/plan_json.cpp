@@ -89,16 +89,11 @@ Node node_from(const Json& json) {
 }
 
 Json row_json(const Row& row) {
-  return {{"number", row.number},
-          {"id", row.id},
-          {"variant", row.variant},
-          {"workflow", row.workflow.string()},
-          {"set", row.overrides},
-          {"values", settings_json(row.values)},
-          {"repeat", row.repeat},
-          {"disturbed", settings_json(row.disturbed)},
-          {"nodes", row.nodes},
-          {"problem", row.problem},
+  return {{"number", row.number},   {"id", row.id},
+          {"variant", row.variant}, {"workflow", row.workflow.string()},
+          {"set", row.overrides},   {"values", settings_json(row.values)},
+          {"repeat", row.repeat},   {"disturbed", settings_json(row.disturbed)},
+          {"nodes", row.nodes},     {"problem", row.problem},
           {"code", row.code}};
 }
 

@@ -21,8 +21,8 @@ double read_step(const YamlNode& node) {
 }  // namespace
 
 Repeat read_repeat(const YamlNode& node) {
-  Repeat repeat{.place = place_of(node), .count = 1, .motion = 0.0, .grid = false, .scale = {},
-                .rows = {}};
+  Repeat repeat{
+      .place = place_of(node), .count = 1, .motion = 0.0, .grid = false, .scale = {}, .rows = {}};
   if (node.kind() == YamlNode::Kind::scalar) {
     repeat.count = read_count(node, 1, kMostRepeats);
     repeat.motion = kUsualStep;

@@ -62,8 +62,8 @@ void read_distribution(SampledInput& input, const std::string& shape, const Yaml
 SampledInput read_input(const std::string& name, const YamlNode& node) {
   const std::vector<std::string> shapes{"uniform", "triangular", "normal", "lognormal"};
   allow_keys(node, {"setting", "uniform", "triangular", "normal", "lognormal"});
-  SampledInput input{.name = name, .place = place_of(node), .settings = {}, .unit = {},
-                     .distribution = {}};
+  SampledInput input{
+      .name = name, .place = place_of(node), .settings = {}, .unit = {}, .distribution = {}};
   input.settings = read_settings_paths(need(node, "setting", "which setting is it?"));
   std::size_t found = 0;
   for (const std::string& shape : shapes)
@@ -80,8 +80,8 @@ SampledInput read_input(const std::string& name, const YamlNode& node) {
 std::size_t index_of(const Sample& sample, const YamlNode& node) {
   for (std::size_t i = 0; i < sample.inputs.size(); ++i)
     if (sample.inputs[i].name == node.scalar()) return i;
-  throw node.error(fmt::format("there is no sampled input '{}'. Name one of 'inputs'.",
-                               node.scalar()));
+  throw node.error(
+      fmt::format("there is no sampled input '{}'. Name one of 'inputs'.", node.scalar()));
 }
 
 void read_correlations(Sample& sample, const YamlNode& node) {

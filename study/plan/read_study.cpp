@@ -11,17 +11,18 @@
 namespace flowslide::study {
 namespace {
 
-const std::vector<std::string> kStudyKeys{"workflow", "set",  "vary",   "sample",  "repeat",
-                                          "also",     "keep", "disk",   "limits",  "analysis"};
+const std::vector<std::string> kStudyKeys{"workflow", "set",  "vary", "sample", "repeat",
+                                          "also",     "keep", "disk", "limits", "analysis"};
 
 /// Each name stands for one column of the table.
 void expect_names(const Part& part, const YamlNode& node) {
   std::set<std::string> seen{"row", "id", "variant", "repeat", "state"};
   const auto take = [&](const std::string& name) {
     if (!is_name(name))
-      throw node.error(fmt::format("'{}' cannot be the name of a variable (it is a column of the "
-                                   "table). Use letters, digits, '-' and '_'.",
-                                   name));
+      throw node.error(
+          fmt::format("'{}' cannot be the name of a variable (it is a column of the "
+                      "table). Use letters, digits, '-' and '_'.",
+                      name));
     if (!seen.insert(name).second)
       throw node.error(fmt::format("there are two columns '{}'. Choose another name.", name));
   };
@@ -30,16 +31,18 @@ void expect_names(const Part& part, const YamlNode& node) {
     for (const SampledInput& i : part.sample->inputs) take(i.name);
   if (!part.repeat) return;
   for (const auto& [name, labels] : part.repeat->rows) {
-    const auto variable = std::find_if(part.vary.begin(), part.vary.end(),
-                                       [&, &name = name](const Variable& v) { return v.name == name; });
+    const auto variable =
+        std::find_if(part.vary.begin(), part.vary.end(),
+                     [&, &name = name](const Variable& v) { return v.name == name; });
     if (variable == part.vary.end())
       throw InputError(fmt::format("{}: there is no variable '{}'. Name one of 'vary'.",
                                    part.repeat->place, name));
     for (const std::string& label : labels)
       if (std::none_of(variable->choices.begin(), variable->choices.end(),
                        [&](const Choice& c) { return c.label == label; }))
-        throw InputError(fmt::format("{}: '{}' is no value of '{}'. Take one as it is written there.",
-                                     part.repeat->place, label, name));
+        throw InputError(
+            fmt::format("{}: '{}' is no value of '{}'. Take one as it is written there.",
+                        part.repeat->place, label, name));
   }
 }
 
@@ -86,11 +89,13 @@ void read_parts(StudyFile& study, const YamlNode& node) {
 
 double read_bytes(const YamlNode& node) {
   const Amount amount = read_amount(node);
-  const double factor = amount.unit == "MB" ? 1e6 : amount.unit == "GB" ? 1e9
-                        : amount.unit == "TB" ? 1e12 : kUnset;
+  const double factor = amount.unit == "MB"   ? 1e6
+                        : amount.unit == "GB" ? 1e9
+                        : amount.unit == "TB" ? 1e12
+                                              : kUnset;
   if (!(amount.value * factor > 0.0))
-    throw node.error(fmt::format("'{}' is no size. Write it as in 2 GB (MB, GB, TB).",
-                                 node.scalar()));
+    throw node.error(
+        fmt::format("'{}' is no size. Write it as in 2 GB (MB, GB, TB).", node.scalar()));
   return amount.value * factor;
 }
 
@@ -127,21 +132,23 @@ void read_analysis(StudyFile& study, const YamlNode& node) {
 StudyFile read_study(const std::filesystem::path& path) {
   const YamlNode document = load_yaml(path);
   if (document.kind() == YamlNode::Kind::map && document.find("stages") && !document.find("study"))
-    throw document.error("is a workflow (a study names one). Run it with 'flowslide run', or write "
-                         "a study: docs/guide/studies.md.");
+    throw document.error(
+        "is a workflow (a study names one). Run it with 'flowslide run', or write "
+        "a study: docs/guide/studies.md.");
   allow_keys(document, {"schema", "name", "description", "study"});
   StudyFile study;
   study.file = path;
   const YamlNode schema = need(document, "schema", "the version of its format");
   if (schema.scalar() != "1")
-    throw schema.error(fmt::format("schema {} is not known to this program (it reads 1).",
-                                   schema.scalar()));
+    throw schema.error(
+        fmt::format("schema {} is not known to this program (it reads 1).", schema.scalar()));
   const YamlNode name = need(document, "name", "results are kept under it");
   study.name = name.scalar();
   if (!is_name(study.name))
-    throw name.error(fmt::format("'{}' cannot be a name (it becomes a folder). Use letters, digits, "
-                                 "'-' and '_'.",
-                                 study.name));
+    throw name.error(
+        fmt::format("'{}' cannot be a name (it becomes a folder). Use letters, digits, "
+                    "'-' and '_'.",
+                    study.name));
   if (const auto text = document.find("description")) study.description = text->scalar();
   const YamlNode node = need(document, "study", "nothing to run");
   allow_keys(node, kStudyKeys);

@@ -32,8 +32,8 @@ std::vector<std::string> range(const YamlNode& node) {
   const Amount to = read_amount(need(node, "to", "a range ends somewhere"));
   const auto step = node.find("step"), count = node.find("count"), spacing = node.find("spacing");
   if (from.unit != to.unit)
-    throw node.error(fmt::format("goes from '{}' to '{}' (two units). Write both in one.",
-                                 from.unit, to.unit));
+    throw node.error(
+        fmt::format("goes from '{}' to '{}' (two units). Write both in one.", from.unit, to.unit));
   if (step.has_value() == count.has_value())
     throw node.error("needs either 'step' or 'count' (how many values there are).");
   const bool log = spacing && spacing->scalar() == "log";
@@ -55,10 +55,9 @@ std::vector<std::string> range(const YamlNode& node) {
   const std::size_t n = read_count(*count, 2, kMostValues);
   for (std::size_t i = 0; i < n; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(n - 1);
-    const double value =
-        log ? flowslide::exp(flowslide::log(from.value) * (1.0 - share) +
-                             flowslide::log(to.value) * share)
-            : from.value * (1.0 - share) + to.value * share;
+    const double value = log ? flowslide::exp(flowslide::log(from.value) * (1.0 - share) +
+                                              flowslide::log(to.value) * share)
+                             : from.value * (1.0 - share) + to.value * share;
     texts.push_back(to_text({value, from.unit}));
   }
   return texts;
@@ -98,16 +97,18 @@ void read_zip(Variable& variable, const YamlNode& node) {
   const YamlNode zip = *node.find("zip");
   for (const auto& [path, values] : zip.entries()) {
     if (!path.starts_with("stages."))
-      throw values.error(fmt::format("'{}' is no path of a setting. Write it as in "
-                                     "stages.map.with.c_soft_ratio.",
-                                     path));
+      throw values.error(
+          fmt::format("'{}' is no path of a setting. Write it as in "
+                      "stages.map.with.c_soft_ratio.",
+                      path));
     if (values.kind() != YamlNode::Kind::list || values.size() == 0)
       throw values.error("is no list (lists are zipped item by item). Write [a, b].");
     if (variable.settings.empty()) variable.choices.resize(values.size());
     if (values.size() != variable.choices.size())
-      throw values.error(fmt::format("{} values beside a list of {} (they are zipped item by item)."
-                                     " Make them equally long.",
-                                     values.size(), variable.choices.size()));
+      throw values.error(
+          fmt::format("{} values beside a list of {} (they are zipped item by item)."
+                      " Make them equally long.",
+                      values.size(), variable.choices.size()));
     for (std::size_t i = 0; i < values.size(); ++i) {
       Choice& choice = variable.choices[i];
       choice.set.emplace_back(path, flow_text(values.item(i)));
@@ -197,9 +198,10 @@ Settings read_set(const YamlNode& node) {
   Settings set;
   for (const auto& [path, value] : node.entries()) {
     if (!path.starts_with("stages."))
-      throw value.error(fmt::format("'{}' is no path of a setting. Write it as in "
-                                    "stages.map.with.c_soft_ratio.",
-                                    path));
+      throw value.error(
+          fmt::format("'{}' is no path of a setting. Write it as in "
+                      "stages.map.with.c_soft_ratio.",
+                      path));
     set.emplace_back(path, flow_text(value));
   }
   return set;
@@ -208,8 +210,8 @@ Settings read_set(const YamlNode& node) {
 std::vector<Variable> read_vary(const YamlNode& node) {
   std::vector<Variable> variables;
   for (const auto& [name, value] : node.entries()) {
-    Variable variable{.name = name, .place = place_of(value), .settings = {}, .unit = {},
-                      .choices = {}};
+    Variable variable{
+        .name = name, .place = place_of(value), .settings = {}, .unit = {}, .choices = {}};
     if (value.find("zip"))
       read_zip(variable, value);
     else if (value.find("table"))
@@ -220,9 +222,10 @@ std::vector<Variable> read_vary(const YamlNode& node) {
     for (std::size_t i = 0; i < variable.choices.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
         if (variable.choices[i].label == variable.choices[j].label)
-          throw value.error(fmt::format("'{}' stands there twice (two rows could not be told "
-                                        "apart). Take one away, or give labels.",
-                                        variable.choices[i].label));
+          throw value.error(
+              fmt::format("'{}' stands there twice (two rows could not be told "
+                          "apart). Take one away, or give labels.",
+                          variable.choices[i].label));
     variables.push_back(std::move(variable));
   }
   return variables;

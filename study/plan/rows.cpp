@@ -45,9 +45,8 @@ std::vector<Draft> sampled(const std::vector<Draft>& rows, const Sample& sample)
 bool is_repeated(const Draft& row, const Repeat& repeat) {
   return std::all_of(repeat.rows.begin(), repeat.rows.end(), [&](const auto& wanted) {
     return std::any_of(row.values.begin(), row.values.end(), [&](const auto& value) {
-      return value.first == wanted.first &&
-             std::find(wanted.second.begin(), wanted.second.end(), value.second) !=
-                 wanted.second.end();
+      return value.first == wanted.first && std::find(wanted.second.begin(), wanted.second.end(),
+                                                      value.second) != wanted.second.end();
     });
   });
 }
@@ -62,8 +61,8 @@ std::vector<Draft> expand(const StudyFile& study) {
     std::vector<Draft> rows{first};
     const auto expect_few = [&](std::size_t factor) {
       validate(rows.size() * factor + all.size() <= kMostRows,
-               "{}: more than {} rows (their table could not be used) vary less", study.file.string(),
-               kMostRows);
+               "{}: more than {} rows (their table could not be used) vary less",
+               study.file.string(), kMostRows);
     };
     for (const Variable& variable : part.vary) {
       expect_few(variable.choices.size());
@@ -75,7 +74,8 @@ std::vector<Draft> expand(const StudyFile& study) {
     }
     expect_few(part.repeat ? part.repeat->count : 1);
     for (const Draft& row : rows) {
-      const std::size_t count = part.repeat && is_repeated(row, *part.repeat) ? part.repeat->count : 1;
+      const std::size_t count =
+          part.repeat && is_repeated(row, *part.repeat) ? part.repeat->count : 1;
       for (std::size_t k = 0; k < count; ++k) all.emplace_back(row).repeat = k;
     }
   }

@@ -9,8 +9,8 @@ namespace flowslide::study {
 /// A row of the study before its workflow is looked at.
 struct Draft {
   const Part* part = nullptr;
-  Settings values;  ///< label of each variable by its name
-  Settings set;     ///< what the row sets in the workflow, in order
+  Settings values;                  ///< label of each variable by its name
+  Settings set;                     ///< what the row sets in the workflow, in order
   std::vector<std::string> places;  ///< where each entry of `set` was written
   std::size_t repeat = 0;           ///< realisation
 };

@@ -54,7 +54,7 @@ struct Repeat {
   std::size_t count = 1;  ///< realisations; the first is the undisturbed one
   double motion = 0.0;    ///< step of the relative change of every motion's amplitude
   bool grid = false;      ///< is the grid moved within a cell?
-  std::vector<std::pair<std::string, double>> scale;  ///< further settings, with their steps
+  std::vector<std::pair<std::string, double>> scale;     ///< further settings, with their steps
   std::map<std::string, std::vector<std::string>> rows;  ///< labels by variable; empty: all rows
 };
 

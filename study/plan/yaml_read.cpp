@@ -1,8 +1,8 @@
 #include "study/plan/yaml_read.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cctype>
+#include <charconv>
 
 #include <fmt/format.h>
 
@@ -11,12 +11,12 @@ namespace {
 
 /// Plain where YAML cannot take it for anything else.
 std::string quoted(const std::string& text) {
-  const bool plain =
-      !text.empty() && text.front() != ' ' && text.back() != ' ' && text.front() != '-' &&
-      std::all_of(text.begin(), text.end(), [](unsigned char c) {
-        return std::isalnum(c) || c == '_' || c == '.' || c == '+' || c == '-' || c == '/' ||
-               c == ' ' || c == '%';
-      });
+  const bool plain = !text.empty() && text.front() != ' ' && text.back() != ' ' &&
+                     text.front() != '-' &&
+                     std::all_of(text.begin(), text.end(), [](unsigned char c) {
+                       return std::isalnum(c) || c == '_' || c == '.' || c == '+' || c == '-' ||
+                              c == '/' || c == ' ' || c == '%';
+                     });
   const bool negative = parse_amount(text).has_value();
   if ((plain || negative) && text != "null") return text;
   std::string result = "\"";
@@ -41,10 +41,9 @@ void allow_keys(const YamlNode& map, const std::vector<std::string>& known) {
   for (const auto& [key, value] : map.entries()) {
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
     const auto near = nearest(key, known);
-    throw value.error(fmt::format(
-        "unknown key '{}' (it would have no effect). {}", key,
-        near ? fmt::format("Did you mean '{}'?", *near)
-             : fmt::format("Known: {}.", fmt::join(known, ", "))));
+    throw value.error(fmt::format("unknown key '{}' (it would have no effect). {}", key,
+                                  near ? fmt::format("Did you mean '{}'?", *near)
+                                       : fmt::format("Known: {}.", fmt::join(known, ", "))));
   }
 }
 
@@ -56,17 +55,17 @@ YamlNode need(const YamlNode& map, std::string_view key, std::string_view why) {
 Amount read_amount(const YamlNode& node) {
   const auto amount = parse_amount(node.scalar());
   if (!amount)
-    throw node.error(fmt::format(
-        "'{}' is no number (a number with its unit is expected) write it as in 25 kPa",
-        node.scalar()));
+    throw node.error(
+        fmt::format("'{}' is no number (a number with its unit is expected) write it as in 25 kPa",
+                    node.scalar()));
   return *amount;
 }
 
 double read_number(const YamlNode& node) {
   const Amount amount = read_amount(node);
   if (!amount.unit.empty())
-    throw node.error(fmt::format("'{}' has a unit (a plain number is expected) leave it out",
-                                 node.scalar()));
+    throw node.error(
+        fmt::format("'{}' has a unit (a plain number is expected) leave it out", node.scalar()));
   return amount.value;
 }
 
@@ -75,8 +74,8 @@ std::size_t read_count(const YamlNode& node, std::size_t least, std::size_t most
   std::size_t count = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
   if (error != std::errc() || end != text.data() + text.size() || count < least || count > most)
-    throw node.error(fmt::format("'{}' is no whole number from {} to {}. Give one.", text, least,
-                                 most));
+    throw node.error(
+        fmt::format("'{}' is no whole number from {} to {}. Give one.", text, least, most));
   return count;
 }
 

@@ -24,8 +24,8 @@ Cleaned clean(const Plan& plan, const Store& store, const StudyState& progress, 
     if (!stage.is_directory() || stage.is_symlink()) continue;
     for (const auto& entry : fs::directory_iterator(stage.path())) {
       const std::string name = entry.path().filename().string(), key = name.substr(0, kDigits);
-      const bool is_key = key.size() == kDigits &&
-                          key.find_first_not_of("0123456789abcdef") == std::string::npos;
+      const bool is_key =
+          key.size() == kDigits && key.find_first_not_of("0123456789abcdef") == std::string::npos;
       if (is_key && !needed.contains(stage.path().filename().string() + "/" + key))
         waste[key].push_back(entry.path());
     }

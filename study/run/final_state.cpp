@@ -40,8 +40,9 @@ void write_final_state(const std::filesystem::path& mpm_history, const std::file
   writer.write("material", points.material, {"", "index into materials"});
   writer.write("strength", last.strength, {"Pa", "at the end", Nan::allowed});
   writer.write_texts("materials", materials);
-  writer.write_table("series", series, 5,
-                     {"", "time [s], runout [m], front [m], largest speed [m/s], kinetic energy [J]"});
+  writer.write_table(
+      "series", series, 5,
+      {"", "time [s], runout [m], front [m], largest speed [m/s], kinetic energy [J]"});
   writer.finish();
 }
 

@@ -30,9 +30,10 @@ double peak_memory() {
 std::size_t index_of(const Workflow& workflow, const std::string& stage) {
   for (std::size_t i = 0; i < workflow.stages.size(); ++i)
     if (workflow.stages[i].name == stage) return i;
-  throw InputError(fmt::format("{}: has no stage '{}' (the workflow has changed since the study "
-                               "began). Run the study again.",
-                               workflow.file.string(), stage));
+  throw InputError(
+      fmt::format("{}: has no stage '{}' (the workflow has changed since the study "
+                  "began). Run the study again.",
+                  workflow.file.string(), stage));
 }
 
 /// The stages before one, in the order of the workflow, as the store knows them.
@@ -60,9 +61,10 @@ class Results {
       const std::string stage_key = key(stage);
       auto finished = store_.finished(name, stage_key);
       if (!finished)
-        throw FileError(fmt::format("{}: has no result yet (it feeds another stage). Run the study "
-                                    "again.",
-                                    name));
+        throw FileError(
+            fmt::format("{}: has no result yet (it feeds another stage). Run the study "
+                        "again.",
+                        name));
       records_[stage] = std::move(finished->record);
     }
     return *records_[stage];
@@ -114,10 +116,10 @@ void expect_same(const std::optional<Finished>& before, const StageRecord& now) 
   for (const OutputRecord& o : before->record.outputs)
     for (const OutputRecord& n : now.outputs)
       if (o.port == n.port && o.sha256 != n.sha256)
-        throw NumericsError(
-            fmt::format("{}: the same settings and inputs gave another '{}' than before (results of "
-                        "two builds would be mixed). Remove {}* in the folder of the study.",
-                        now.stage, o.port, now.key.substr(0, 16)));
+        throw NumericsError(fmt::format(
+            "{}: the same settings and inputs gave another '{}' than before (results of "
+            "two builds would be mixed). Remove {}* in the folder of the study.",
+            now.stage, o.port, now.key.substr(0, 16)));
 }
 
 void keep_final_state(const Store& store, const StageRecord& record, const StageType& type) {
@@ -170,12 +172,13 @@ JobResult run_job(const Job& job, std::span<const StageType> types, const std::a
              "{}: would start '{}' without permission", stage.name, program);
   Results results(workflow, store);
   const std::string key = results.key(index);
-  validate(key == job.key,
-           "{}: its settings or inputs have changed since the study began (the row would not be what "
-           "the table says). Run the study again.",
-           stage.name);
-  StageInputs inputs{.hashes = results.inputs(), .paths = {}, .files = {},
-                     .warnings = results.warnings()};
+  validate(
+      key == job.key,
+      "{}: its settings or inputs have changed since the study began (the row would not be what "
+      "the table says). Run the study again.",
+      stage.name);
+  StageInputs inputs{
+      .hashes = results.inputs(), .paths = {}, .files = {}, .warnings = results.warnings()};
 
   Locks locks(job.store);
   for (const Link& link : stage.inputs)

@@ -25,7 +25,8 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-constexpr double kPatience = 60.0;  ///< between a polite signal and the one that nobody survives [s]
+constexpr double kPatience =
+    60.0;  ///< between a polite signal and the one that nobody survives [s]
 
 struct Running {
   std::size_t node = 0;
@@ -51,23 +52,25 @@ std::string message_of(const std::string& errors) {
 }
 
 Failure failure_of(int status, const Running& r, const std::string& errors, double limit) {
-  Failure f{.code = 3, .text = message_of(errors), .program = program_version(), .permanent = false};
+  Failure f{
+      .code = 3, .text = message_of(errors), .program = program_version(), .permanent = false};
   if (r.too_long) {
     f.code = 3;
-    f.text = fmt::format("took longer than {:g} s (limits.stage_time) raise the limit: a stage with "
-                         "checkpoints goes on where it was stopped.",
-                         limit);
+    f.text = fmt::format(
+        "took longer than {:g} s (limits.stage_time) raise the limit: a stage with "
+        "checkpoints goes on where it was stopped.",
+        limit);
   } else if (WIFSIGNALED(status)) {
     const int number = WTERMSIG(status);
     f.code = 128 + number;
-    f.text = fmt::format(
-        "ended by signal {} ({}){}{}", number, ::strsignal(number),
-        number == SIGKILL ? ". Where nobody has killed it, the machine had no memory left: take "
-                            "fewer --jobs."
-                          : ", a defect of the program. Please report it with the study file.",
-        f.text.empty() ? "" : "\n" + f.text);
-    f.permanent = number == SIGSEGV || number == SIGABRT || number == SIGBUS ||
-                  number == SIGFPE || number == SIGILL;
+    f.text = fmt::format("ended by signal {} ({}){}{}", number, ::strsignal(number),
+                         number == SIGKILL
+                             ? ". Where nobody has killed it, the machine had no memory left: take "
+                               "fewer --jobs."
+                             : ", a defect of the program. Please report it with the study file.",
+                         f.text.empty() ? "" : "\n" + f.text);
+    f.permanent = number == SIGSEGV || number == SIGABRT || number == SIGBUS || number == SIGFPE ||
+                  number == SIGILL;
   } else if (WEXITSTATUS(status) == 0) {
     f.code = 4;
     f.text = r.end == "damaged"
@@ -251,7 +254,8 @@ class Pool {
     constexpr int kMilliseconds = 100;
     (void)::poll(files.data(), files.size(), kMilliseconds);
     // A pipe whose writer has gone is always ready: give the process time to end.
-    if (std::any_of(files.begin(), files.end(), [](const pollfd& f) { return f.revents & POLLHUP; }))
+    if (std::any_of(files.begin(), files.end(),
+                    [](const pollfd& f) { return f.revents & POLLHUP; }))
       (void)::poll(nullptr, 0, 2);
   }
 
@@ -283,8 +287,7 @@ class Pool {
       r.told = Clock::now();
       r.child.signal(SIGTERM);
     }
-    if (r.told != Clock::time_point{} && seconds_since(r.told) > kPatience)
-      r.child.signal(SIGKILL);
+    if (r.told != Clock::time_point{} && seconds_since(r.told) > kPatience) r.child.signal(SIGKILL);
   }
 
   void tell_all() {
@@ -341,15 +344,14 @@ class Pool {
       if (stage(from) != r.damaged) continue;
       constexpr int kMost = 2;
       if (++damages_[from] > kMost) return false;
-      events_.notice(fmt::format("{}: its result was damaged or has gone; it is made again.",
-                                 r.damaged));
+      events_.notice(
+          fmt::format("{}: its result was damaged or has gone; it is made again.", r.damaged));
       const std::string& key = progress_.node(from).key;
       if (locks_.take(key)) {
         store_.drop_files(stage(from), key);
         locks_.release(key);
       }
-      progress_.node(r.node).state =
-          progress_.node(r.node).finished ? State::done : State::ready;
+      progress_.node(r.node).state = progress_.node(r.node).finished ? State::done : State::ready;
       not_before_[r.node] = Clock::now() + std::chrono::milliseconds(100);
       return true;
     }
@@ -385,14 +387,14 @@ class Pool {
   Locks locks_;
   WorkCosts costs_;
   std::list<Running> running_;
-  std::vector<int> damages_;                    ///< how often a result was found damaged
-  std::vector<Clock::time_point> not_before_;   ///< for those that another process has
+  std::vector<int> damages_;                   ///< how often a result was found damaged
+  std::vector<Clock::time_point> not_before_;  ///< for those that another process has
 };
 
 }  // namespace
 
-void run_pool(const Plan& plan, const Store& store, StudyState& progress, const PoolOptions& options,
-              const PoolEvents& events) {
+void run_pool(const Plan& plan, const Store& store, StudyState& progress,
+              const PoolOptions& options, const PoolEvents& events) {
   progress.reopen(options.retry ? Retry::all : Retry::passing);
   Pool(plan, store, progress, options, events).run();
 }

@@ -49,7 +49,7 @@ struct PoolEvents {
 
 /// Computes what is missing, each stage in a process of its own. A stage that fails does not stop
 /// the rest. Throws Interrupted when asked to stop, FileError where the store cannot be written.
-void run_pool(const Plan& plan, const Store& store, StudyState& progress, const PoolOptions& options,
-              const PoolEvents& events);
+void run_pool(const Plan& plan, const Store& store, StudyState& progress,
+              const PoolOptions& options, const PoolEvents& events);
 
 }  // namespace flowslide::study

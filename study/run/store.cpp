@@ -41,7 +41,8 @@ std::optional<Finished> Store::finished(const std::string& stage, const std::str
   const auto json = read(beside(stage, key, ".json"));
   if (!json) return std::nullopt;
   try {
-    Finished f{.record = record_from(json->at("record")), .peak_memory = json->at("peak_memory_bytes")};
+    Finished f{.record = record_from(json->at("record")),
+               .peak_memory = json->at("peak_memory_bytes")};
     f.record.facts = json->at("facts").dump();
     if (f.record.stage != stage || f.record.key != key) return std::nullopt;
     return f;

@@ -38,7 +38,8 @@ class Store {
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   /// Paths of a key: its result, and the files beside it.
-  [[nodiscard]] std::filesystem::path result(const std::string& stage, const std::string& key) const;
+  [[nodiscard]] std::filesystem::path result(const std::string& stage,
+                                             const std::string& key) const;
   [[nodiscard]] std::filesystem::path beside(const std::string& stage, const std::string& key,
                                              std::string_view ending) const;
 

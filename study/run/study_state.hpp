@@ -23,7 +23,7 @@ struct NodeState {
   std::optional<Finished> finished;  ///< when done
   std::optional<Failure> failure;    ///< when failed
   std::size_t blocker = 0;           ///< when blocked: the node that failed
-  bool again = false;  ///< done before, but its files are needed and have gone
+  bool again = false;                ///< done before, but its files are needed and have gone
 };
 
 /// Which failures of earlier sessions are to be tried again.

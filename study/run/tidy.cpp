@@ -30,9 +30,8 @@ std::vector<std::size_t> free_nodes(const Plan& plan, const Store& store,
 
 /// Does it hold the frames of a runout, of which the last is kept beside it?
 bool has_frames(const WorkflowStage& stage) {
-  return std::any_of(stage.type.outputs.begin(), stage.type.outputs.end(), [](const Port& port) {
-    return port.kind == kArtifactKind<MpmHistory>;
-  });
+  return std::any_of(stage.type.outputs.begin(), stage.type.outputs.end(),
+                     [](const Port& port) { return port.kind == kArtifactKind<MpmHistory>; });
 }
 
 void drop(const Plan& plan, const Store& store, const StudyState& progress, Locks& locks,

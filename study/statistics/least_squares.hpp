@@ -5,8 +5,9 @@
 
 namespace flowslide::study {
 
-/// Coefficients c of the sum over k of c[k] * columns[k] that is nearest to y in the sum of squares;
-/// empty where the columns do not determine them. By rotations of Givens (1958), no normal equations.
+/// Coefficients c of the sum over k of c[k] * columns[k] that is nearest to y in the sum of
+/// squares; empty where the columns do not determine them. By rotations of Givens (1958), no normal
+/// equations.
 std::vector<double> least_squares(const std::vector<std::vector<double>>& columns,
                                   const std::vector<double>& y);
 

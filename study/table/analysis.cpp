@@ -47,9 +47,8 @@ class Analyst {
     f_.repeats = group_rows(groups_of(plan));
     choose_variant();
     f_.results = plan.analysis.results.empty() ? usual_results(table) : plan.analysis.results;
-    std::erase_if(f_.results, [&](const std::string& name) {
-      return !is_there(name, "analysis.results");
-    });
+    std::erase_if(f_.results,
+                  [&](const std::string& name) { return !is_there(name, "analysis.results"); });
   }
 
   StudyFindings run() {

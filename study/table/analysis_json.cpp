@@ -15,9 +15,10 @@ Json json_of(const Relation& r) {
   return {{"x", r.x},
           {"y", r.y},
           {"spearman", json_of(r.spearman)},
-          {"line", {{"intercept", json_of(r.line.intercept)},
-                    {"slope", json_of(r.line.slope)},
-                    {"r2", r.line.r2}}}};
+          {"line",
+           {{"intercept", json_of(r.line.intercept)},
+            {"slope", json_of(r.line.slope)},
+            {"r2", r.line.r2}}}};
 }
 
 Json json_of(const Threshold& t) {

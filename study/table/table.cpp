@@ -137,8 +137,8 @@ class Builder {
           if (value.is_string())
             c.text[r] = value.get<std::string>();
           else
-            set(c, r, value.is_boolean() ? static_cast<double>(value.get<bool>())
-                                         : value.get<double>());
+            set(c, r,
+                value.is_boolean() ? static_cast<double>(value.get<bool>()) : value.get<double>());
         }
       }
     for (const std::string_view name : kFirst)
@@ -160,8 +160,7 @@ class Builder {
       Column& c = add("key:" + stage, Role::key, "", "key of its result, the folder in stages/");
       for (std::size_t r = 0; r < table_.rows; ++r)
         for (const std::size_t n : plan_.rows[r].nodes)
-          if (plan_.nodes[n].stage.name == stage)
-            c.text[r] = progress_.node(n).key.substr(0, 16);
+          if (plan_.nodes[n].stage.name == stage) c.text[r] = progress_.node(n).key.substr(0, 16);
     }
   }
 
@@ -173,8 +172,8 @@ class Builder {
 }  // namespace
 
 const Column* Table::find(std::string_view name) const {
-  const auto it = std::find_if(columns.begin(), columns.end(),
-                               [&](const Column& c) { return c.name == name; });
+  const auto it =
+      std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
   return it == columns.end() ? nullptr : &*it;
 }
 

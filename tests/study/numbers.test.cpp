@@ -54,9 +54,9 @@ TEST_CASE("The normal distribution has its known values", "[study]") {
 TEST_CASE("Sobol points are the published ones and fill every interval once", "[study]") {
   const auto unit = [](std::uint32_t v) { return static_cast<double>(v) * 0x1p-32; };
   // The first points of the sequence in three dimensions, as in the file of Joe and Kuo's program.
-  const std::vector<std::vector<double>> known{{0, 0, 0},          {0.5, 0.5, 0.5},
-                                               {0.75, 0.25, 0.25}, {0.25, 0.75, 0.75},
-                                               {0.375, 0.375, 0.625}, {0.875, 0.875, 0.125}};
+  const std::vector<std::vector<double>> known{
+      {0, 0, 0},          {0.5, 0.5, 0.5},       {0.75, 0.25, 0.25},
+      {0.25, 0.75, 0.75}, {0.375, 0.375, 0.625}, {0.875, 0.875, 0.125}};
   for (std::size_t i = 0; i < known.size(); ++i) {
     const auto point = sobol_point(i, 3);
     for (std::size_t d = 0; d < 3; ++d) CHECK(unit(point[d]) == known[i][d]);
@@ -121,9 +121,9 @@ TEST_CASE("Correlated inputs are, and the others are not", "[study]") {
     CHECK(correlation(z[0], z[1]) == Approx(0.7).margin(0.05));
     CHECK(std::abs(correlation(z[0], z[2])) < 0.1);
   }
-  CHECK_THROWS_AS(sample_points(Sampling::random, 4, 3, 1,
-                                {{0, 1, 0.9}, {1, 2, 0.9}, {0, 2, -0.9}}),
-                  InputError);
+  CHECK_THROWS_AS(
+      sample_points(Sampling::random, 4, 3, 1, {{0, 1, 0.9}, {1, 2, 0.9}, {0, 2, -0.9}}),
+      InputError);
 }
 
 TEST_CASE("Samples are the same bits everywhere", "[study]") {
@@ -147,6 +147,6 @@ TEST_CASE("Distributions that are none are refused", "[study]") {
   CHECK_THROWS_AS(check({.shape = Shape::normal, .mean = 1.0, .deviation = 0.0}), InputError);
   CHECK_THROWS_AS(check({.shape = Shape::normal, .mean = 1.0}), InputError);
   CHECK_THROWS_AS(check({.shape = Shape::lognormal, .mean = -1.0, .deviation = 1.0}), InputError);
-  CHECK_THROWS_AS(
-      check({.shape = Shape::normal, .mean = 0.0, .deviation = 1.0, .min = 30.0}), InputError);
+  CHECK_THROWS_AS(check({.shape = Shape::normal, .mean = 0.0, .deviation = 1.0, .min = 30.0}),
+                  InputError);
 }

@@ -34,8 +34,8 @@ TEST_CASE("Variables are crossed, the first changes slowest", "[study]") {
                                                  "one 2, factor 1", "one 2, factor 10",
                                                  "one 3, factor 1", "one 3, factor 10"});
   CHECK(plan.nodes.size() == 16);
-  CHECK(plan.rows[1].overrides == std::vector<std::string>{"stages.one.with.value=1",
-                                                           "stages.sum.with.factor=10"});
+  CHECK(plan.rows[1].overrides ==
+        std::vector<std::string>{"stages.one.with.value=1", "stages.sum.with.factor=10"});
   // Where a row stands does not change what it is.
   const Plan other = bench.plan(
       "  vary:\n    factor: {setting: stages.sum.with.factor, values: [10]}\n"
@@ -55,17 +55,16 @@ TEST_CASE("Ranges, zipped lists, tables and variants", "[study]") {
       "  vary:\n    case:\n      zip: {stages.one.with.value: [1, 2], stages.two.with.value: [5, 6]}\n"
       "      labels: [low, high]\n");
   CHECK(labels(zipped) == std::vector<std::string>{"case low", "case high"});
-  CHECK(zipped.rows[1].overrides == std::vector<std::string>{"stages.one.with.value=2",
-                                                             "stages.two.with.value=6"});
+  CHECK(zipped.rows[1].overrides ==
+        std::vector<std::string>{"stages.one.with.value=2", "stages.two.with.value=6"});
   bench.scratch.write("cases.csv", "# our cases\nname, a, b\nsmall, 1, 2\nlarge, 10, 20\n");
   const std::string table =
       "  vary: {case: {table: cases.csv, columns: {a: stages.one.with.value, b: [stages.two.with.value]}";
-  CHECK(labels(bench.plan(table + "}}\n")) ==
-        std::vector<std::string>{"case small", "case large"});
+  CHECK(labels(bench.plan(table + "}}\n")) == std::vector<std::string>{"case small", "case large"});
   const Plan one = bench.plan(table + ", rows: [large]}}\n");
   REQUIRE(one.rows.size() == 1);
-  CHECK(one.rows[0].overrides == std::vector<std::string>{"stages.one.with.value=10",
-                                                          "stages.two.with.value=20"});
+  CHECK(one.rows[0].overrides ==
+        std::vector<std::string>{"stages.one.with.value=10", "stages.two.with.value=20"});
   const Plan also = bench.plan(kValues + "  also:\n    plain: {set: {stages.one.with.value: 9}}\n");
   CHECK(also.rows.size() == 7);
   CHECK(also.rows[6].label() == "plain");
@@ -110,7 +109,8 @@ TEST_CASE("Repeats disturb what they say, by what they say", "[study]") {
   CHECK(plan.rows[3].label() == "one 2, repeat 2");
   // The usual disturbances have nothing to act on here.
   const Plan none = bench.plan("  repeat: 2\n");
-  CHECK_THAT(none.rows[1].problem, Contains("study.yaml:5:") && Contains("neither a motion nor a grid"));
+  CHECK_THAT(none.rows[1].problem,
+             Contains("study.yaml:5:") && Contains("neither a motion nor a grid"));
 }
 
 TEST_CASE("A repeat scales the motion and moves the grid of map and flow alike", "[study]") {
@@ -120,8 +120,8 @@ TEST_CASE("A repeat scales the motion and moves the grid of map and flow alike",
                 "  motion: {uses: motion.prepare, with: {preset: corinth, pga: 0.3 g}}\n"
                 "  map: {uses: transfer.map, with: {cell: \"${stages.flow.with.cell}\"}}\n"
                 "  flow: {uses: mpm.run, with: {cell: 2 m, grid_origin: [10 m, 0 m]}}\n");
-  const Repeat repeat{.place = "s.yaml:1:1", .count = 3, .motion = 1e-6, .grid = true, .scale = {},
-                      .rows = {}};
+  const Repeat repeat{
+      .place = "s.yaml:1:1", .count = 3, .motion = 1e-6, .grid = true, .scale = {}, .rows = {}};
   const YamlNode workflow = load_yaml(scratch / "w.yaml");
   CHECK(perturbations(workflow, repeat, 0).empty());
   const Settings set = perturbations(workflow, repeat, 1);
@@ -148,7 +148,8 @@ TEST_CASE("Mistakes in a study file are named with their place", "[study]") {
        {"does not lead from 1 to 2"}},
       {"  vary: {f: {zip: {stages.one.with.value: [1, 2], stages.two.with.value: [1]}}}\n",
        {"zipped item by item"}},
-      {"  sample: {count: 2, inputs: {f: {setting: stages.sum.with.factor}}}\n", {"0 distributions"}},
+      {"  sample: {count: 2, inputs: {f: {setting: stages.sum.with.factor}}}\n",
+       {"0 distributions"}},
       {"  sample: {count: 2, inputs: {f: {setting: stages.sum.with.factor, "
        "normal: {mean: 1 m, deviation: 1 s}}}}\n",
        {"another unit"}},

@@ -1,6 +1,5 @@
-#include "tests/study/study_bench.hpp"
-
 #include "study/numbers/random.hpp"
+#include "tests/study/study_bench.hpp"
 
 #include <chrono>
 #include <thread>
@@ -13,8 +12,8 @@ using Catch::Contains;
 namespace {
 
 /// Long enough to be killed in the midst of it.
-const std::string kSlow = kValues +
-                          "  set: {stages.count.with.steps: 30, stages.count.with.step_us: 2000}\n";
+const std::string kSlow =
+    kValues + "  set: {stages.count.with.steps: 30, stages.count.with.step_us: 2000}\n";
 
 int end_of(pid_t child) {
   int status = 0;

@@ -1,8 +1,7 @@
-#include "tests/study/study_bench.hpp"
-
 #include "study/run/clean.hpp"
 #include "study/run/locks.hpp"
 #include "study/run/tidy.hpp"
+#include "tests/study/study_bench.hpp"
 
 using namespace flowslide;
 using namespace flowslide::study;
@@ -131,7 +130,8 @@ TEST_CASE("A folder that holds no study is refused", "[study]") {
 
 TEST_CASE("A plan is read back as it was", "[study]") {
   StudyBench bench;
-  const Plan plan = bench.plan(kValues + "  repeat: {count: 2, scale: {stages.one.with.value: 1e-6}}\n");
+  const Plan plan =
+      bench.plan(kValues + "  repeat: {count: 2, scale: {stages.one.with.value: 1e-6}}\n");
   std::filesystem::create_directories(bench.folder);
   write_plan(bench.folder, plan);
   CHECK(to_json(read_plan(bench.folder)) == to_json(plan));

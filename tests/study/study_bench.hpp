@@ -44,9 +44,10 @@ struct StudyBench {
   }
 
   Plan plan(const std::string& study) const {
-    return make_plan(read_study(scratch.write("study.yaml", "schema: 1\nname: demo\nstudy:\n"
-                                                            "  workflow: base.yaml\n" +
-                                                                study)),
+    return make_plan(read_study(scratch.write("study.yaml",
+                                              "schema: 1\nname: demo\nstudy:\n"
+                                              "  workflow: base.yaml\n" +
+                                                  study)),
                      types);
   }
 
@@ -55,8 +56,13 @@ struct StudyBench {
     std::filesystem::create_directories(folder / "stages");
     const Store store(folder);
     StudyState progress(p, store);
-    PoolOptions options{.jobs = jobs, .threads = jobs, .memory = 1e12, .retry = retry,
-                        .allowed_programs = {}, .stop_requested = stop, .body = {}};
+    PoolOptions options{.jobs = jobs,
+                        .threads = jobs,
+                        .memory = 1e12,
+                        .retry = retry,
+                        .allowed_programs = {},
+                        .stop_requested = stop,
+                        .body = {}};
     options.body = [this](const Job& job) {
       before(job);
       const JobResult result = run_job_aloud(job, types, stop);

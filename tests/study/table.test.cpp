@@ -10,8 +10,8 @@ using Catch::Contains;
 
 namespace {
 
-/// one 1..4 crossed with factor 1, 2 and three repeats: sum = factor * (one + 2), its factor disturbed
-/// by a thousandth.
+/// one 1..4 crossed with factor 1, 2 and three repeats: sum = factor * (one + 2), its factor
+/// disturbed by a thousandth.
 const std::string kStudy =
     "  set: {stages.count.with.steps: 1, stages.sum.with.factor: 1}\n"
     "  vary:\n"
@@ -75,12 +75,14 @@ TEST_CASE("The page of a study is one file that asks nothing of the network", "[
   write_tables(bench.folder, plan, table);
   write_page(bench.folder, plan, table);
   const std::string html = read_text_file(bench.folder / "study.html");
-  CHECK_THAT(html, Contains("numerical scatter") && Contains("<svg") && Contains("prefers-color-scheme"));
+  CHECK_THAT(html,
+             Contains("numerical scatter") && Contains("<svg") && Contains("prefers-color-scheme"));
   for (const char* outside : {"http://", "https://", "<script", "<link", "url("})
     CHECK_THAT(html, !Contains(outside));
   CHECK(read_text_file(bench.folder / "table.csv") == to_csv(table));
-  CHECK_THAT(read_text_file(bench.folder / "columns.csv"),
-             Contains("one,,input,stages.one.with.value") && Contains("sum,,found,sum (sample.sum)"));
+  CHECK_THAT(
+      read_text_file(bench.folder / "columns.csv"),
+      Contains("one,,input,stages.one.with.value") && Contains("sum,,found,sum (sample.sum)"));
   CHECK(std::filesystem::exists(bench.folder / "table.h5"));
   CHECK_THAT(read_text_file(bench.folder / "figures/sum-tornado.svg"),
              Contains("xmlns='http://www.w3.org/2000/svg'"));

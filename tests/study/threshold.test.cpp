@@ -1,6 +1,7 @@
+#include "study/statistics/threshold.hpp"
+
 #include "study/numbers/normal.hpp"
 #include "study/numbers/random.hpp"
-#include "study/statistics/threshold.hpp"
 
 #include <algorithm>
 
@@ -61,6 +62,6 @@ TEST_CASE("What does not hang on x has no thresholds", "[study]") {
   }
   CHECK(fit_ramp(x, y, 1).no_breach > 0.5);
   CHECK_FALSE(is_set(fit_ramp({1, 2, 3}, {1, 2, 3}, 1).breach.value));
-  CHECK_FALSE(is_set(fit_ramp(std::vector<double>(10, 1.0), std::vector<double>(10, 2.0), 1)
-                         .breach.value));
+  CHECK_FALSE(
+      is_set(fit_ramp(std::vector<double>(10, 1.0), std::vector<double>(10, 2.0), 1).breach.value));
 }
