@@ -203,7 +203,9 @@ struct Shaking {
     run.seconds = seconds_before + seconds;
     write_checkpoint(checkpoint, origin, s, run);
   }
-  [[nodiscard]] double share() const { return s.state.time / end; }
+  [[nodiscard]] Share share() const {
+    return {s.state.time / end, bool(rule.ends) || config.stop_displacement};
+  }
   [[nodiscard]] std::string text() const {
     return fmt::format("{:.2f} s, step {:.3g} s", s.state.time, s.dt);
   }

@@ -5,6 +5,7 @@
 #include "mpm/solver/checkpoint.hpp"
 #include "mpm/run/extrude.hpp"
 #include "mpm/run/load.hpp"
+#include "mpm/run/rest_forecast.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -126,6 +127,7 @@ struct Runout {
   std::vector<double> front_scratch{};
   MpmSample last{.time = s.time};
   bool over = false, rests = false;
+  RestForecast forecast{};
 
   [[nodiscard]] bool ended() const { return over; }
   bool step() {
@@ -148,7 +150,12 @@ struct Runout {
     ++run.frames;
     pass_output(run.next_frame, s.time, config.frame_interval);
   }
-  [[nodiscard]] double share() const { return s.time / config.end; }
+  /// Until rest, as soon as it can be foreseen.
+  [[nodiscard]] Share share() const {
+    const auto rest = forecast.rest(run.peak_kinetic, config.rest.kinetic_share);
+    if (!rest) return {s.time / config.end, true};
+    return s.time / std::min(config.end, std::max(*rest, s.time) + config.rest.window);
+  }
   [[nodiscard]] std::string text() const {
     return fmt::format("t {:.1f} s, runout {:.1f} m, fastest {:.2f} m/s", s.time, last.runout,
                        std::sqrt(s.last.max_speed2));
@@ -164,6 +171,7 @@ struct Runout {
     ++run.samples;
     pass_output(run.next_sample, s.time, config.sample_interval);
     run.peak_kinetic = std::max(run.peak_kinetic, last.kinetic);
+    forecast.look(s.time, last.kinetic);
     run.recent.push_back({s.time, last.front});
     std::erase_if(run.recent, [&](const auto& r) { return r[0] < s.time - config.rest.window; });
     rests = at_rest(run, last, config.rest);

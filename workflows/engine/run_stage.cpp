@@ -129,8 +129,8 @@ StageState run_stage(const WorkflowStage& stage, const Decision& decision,
   for (const auto& [port, hash] : inputs.hashes)
     if (port != kWarningsInput) context.provenance.emplace_back("sha256 of " + port, hash);
   context.progress.stop_requested = options.stop_requested;
-  context.progress.report = [&](double fraction, std::string_view text) {
-    events.progress(stage.name, fraction, text);
+  context.progress.report = [&](Share share, std::string_view text) {
+    events.progress(stage.name, share, text);
     watch.write_if_due();
   };
   const StageResult result = call(stage, context, inputs, paths, watch);
