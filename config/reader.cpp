@@ -101,7 +101,7 @@ class SettingsReader final : public FieldVisitor {
     if (!node || (what == Moved::list && node->kind() != YamlNode::Kind::list)) return;
     frame.refused.emplace_back(key);
     note(node->key_where().line,
-         fmt::format("{}: {}: '{}' is written as in an older version ({})",
+         fmt::format("{}: {}: '{}' is written as in an older version {}",
                      node->key_where().text(), frame.path.empty() ? "the file" : frame.path, key,
                      text));
   }

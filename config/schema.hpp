@@ -84,7 +84,7 @@ class FieldVisitor {
   virtual void rows(std::string_view key, std::vector<std::vector<double>>& values,
                     std::span<const Column> columns, std::string_view doc) = 0;
 
-  /// A key of an older version of the program: refused with `text`, which shows the new spelling.
+  /// A key of an older version of the program: refused with `text`, "(why) what to write now".
   /// With Moved::list the key lives on, but not as a list; before the field that it is now.
   enum class Moved { key, list };
   virtual void moved(std::string_view, std::string_view, Moved = Moved::key) {}

@@ -190,7 +190,7 @@ FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const F
     check_progress(paths.checkpoint, s, run, end, config.output_interval);
   }
   ResumableHistoryWriter history(
-      paths.history, section.mesh,
+      paths.history, section.mesh, history_materials(section, config),
       {"flowslide fem.run", "mean of xx and yy for PM4Sand, elastic plane strain for other laws",
        notes},
       frame, static_cast<std::size_t>(run.output - 1));

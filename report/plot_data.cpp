@@ -70,7 +70,7 @@ void write_plot_data(const std::filesystem::path& folder, const FemHistory& hist
   for (const MaterialSpec& m : p.materials)
     j["materials"].push_back({{"name", m.name},
                               {"counts", m.counts_for_runout},
-                              {"liquefied", m.name.starts_with(config.liquefied)}});
+                              {"liquefied", m.liquefied}});
   write_file(folder / "plot.json", j.dump(1) + "\n");
 }
 

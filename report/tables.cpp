@@ -3,6 +3,7 @@
 #include "core/check.hpp"
 #include "report/facts.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <utility>
@@ -39,14 +40,15 @@ std::string column_name(std::string_view name) {
   return out;
 }
 
-std::string runout_csv(const std::vector<MpmSample>& samples) {
+std::string runout_csv(const std::vector<MpmSample>& samples, double toe) {
   std::string out = "time_s,runout_m,front_m,front_speed_m_s";
   for (const auto& column : kAfterSpeed) out += fmt::format(",{}", column.name);
   out += '\n';
   const std::vector<double> speed = front_speed(samples);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const MpmSample& s = samples[i];
-    out += fmt::format("{},{},{},{}", s.time, s.runout, s.front, speed[i]);
+    const double runout = is_set(toe) ? std::max(0.0, s.front - toe) : s.runout;
+    out += fmt::format("{},{},{},{}", s.time, runout, s.front, speed[i]);
     for (const auto& column : kAfterSpeed) out += fmt::format(",{}", s.*column.value);
     out += '\n';
   }

@@ -41,7 +41,7 @@ void index_by_id(mpm::Simulation<Dim>& s, const ParticleSet& particles) {
     s.points.index[order[rank]] = static_cast<std::int32_t>(rank);
 }
 
-bool at_rest(const mpm::RunState& run, const MpmSample& now, const RestSettings& rest) {
+bool at_rest(const mpm::RunState& run, const MpmSample& now, const RestRule& rest) {
   if (now.time < rest.window || run.recent.empty()) return false;
   const auto [low, high] =
       std::minmax_element(run.recent.begin(), run.recent.end(),
@@ -120,7 +120,7 @@ FlowFacts run_in(const ParticleSet& particles, const FlowConfig& config, const F
   }
   mpm::Reference<Dim> reference{
       {run.mass_start, run.kinetic_start, run.potential_start, run.recoverable_start, {}, true, -1},
-      config.toe};
+      particles.toe};
   std::copy_n(run.momentum_start.begin(), Dim, reference.start.momentum.begin());
   std::vector<bool> counts;
   for (const MaterialSpec& m : particles.materials) counts.push_back(m.counts_for_runout);
@@ -128,7 +128,7 @@ FlowFacts run_in(const ParticleSet& particles, const FlowConfig& config, const F
       std::all_of(particles.materials.begin(), particles.materials.end(),
                   [](const MaterialSpec& m) { return m.law == LinearElastic::name; });
 
-  MpmHistoryWriter history(paths.history, particles, run.frames, run.samples);
+  MpmHistoryWriter history(paths.history, particles, config.rest, run.frames, run.samples);
 
   FlowFacts facts;
   MpmFrame frame;
@@ -200,6 +200,9 @@ FlowFacts run_in(const ParticleSet& particles, const FlowConfig& config, const F
 
 FlowFacts run_flow(const ParticleSet& particles, const FlowConfig& config, const FlowPaths& paths,
                    int threads, const Progress& progress) {
+  validate(is_set(particles.toe),
+           "the points do not say from where the runout counts (no soil among them counts for it) "
+           "let a material count, or give them a toe");
   if (!config.extrude) return run_in<2>(particles, config, paths, threads, progress);
   FlowConfig valley = config;
   if (config.extrude->sides != Sides::open) valley.side_rollers = {0.0, config.extrude->width};

@@ -194,7 +194,7 @@ TEST_CASE("check reads the files that the workflow names", "[cli]") {
 
   const auto zone = [](const std::string& windows) {
     return "  zone:\n    uses: transfer.zone\n    in: {history: shake.history}\n    with:\n"
-           "      {when: gravity, zone: all, liquefiable: [1], pond_surface: 1 m" +
+           "      {when: gravity, zone: all, liquefiable: [sand], pond_surface: 1 m" +
            windows + ", strength: {table: [[20 kPa, 2 kPa]]}}\n";
   };
   write_model(scratch);
@@ -216,11 +216,11 @@ TEST_CASE("check reads the files that the workflow names", "[cli]") {
 TEST_CASE("windows are those of the user, or the whole soil", "[cli]") {
   const Scratch scratch;
   write_model(scratch);
-  const Outcome o =
-      run(scratch, shake() +
-                       "  zone:\n    uses: transfer.zone\n    in: {history: shake.history}\n"
-                       "    with: {when: gravity, zone: all, liquefiable: [1], pond_surface: 1 m, "
-                       "strength: {table: [[20 kPa, 2 kPa]]}}\n");
+  const Outcome o = run(
+      scratch, shake() +
+                   "  zone:\n    uses: transfer.zone\n    in: {history: shake.history}\n"
+                   "    with: {when: gravity, zone: all, liquefiable: [sand], pond_surface: 1 m, "
+                   "strength: {table: [[20 kPa, 2 kPa]]}}\n");
   CHECK(o.code == 0);
   CHECK_THAT(o.out, Contains("liquefaction depth, all        1 m"));
 }

@@ -2,6 +2,7 @@
 
 #include "core/check.hpp"
 #include "core/files.hpp"
+#include "workflows/engine/headlines.hpp"
 #include "workflows/engine/program_version.hpp"
 #include "workflows/engine/result_folder.hpp"
 #include "workflows/engine/session.hpp"
@@ -145,7 +146,7 @@ StageState run_stage(const WorkflowStage& stage, const Decision& decision,
                      .files = {},
                      .publish = result.publish,
                      .give = result.give,
-                     .facts = add_warnings(result.facts, result.warnings),
+                     .facts = add_headlines(add_warnings(result.facts, result.warnings), result.headlines),
                      .program = program_version(),
                      .seconds = watch.seconds()};
   for (const Port& port : stage.type.outputs) expect_output(stage, port, work);

@@ -10,7 +10,7 @@ Preview merged(const Previews& inputs) {
     if (!all.section) all.section = p->section;
     all.shakes = all.shakes || p->shakes;
     if (!all.end) all.end = p->end;
-    all.density.insert(p->density.begin(), p->density.end());
+    if (all.materials.empty()) all.materials = p->materials;
     if (!all.stop) all.stop = p->stop;
     if (!all.zone) all.zone = p->zone;
     if (!all.map) all.map = p->map;
