@@ -21,6 +21,8 @@ struct Preview {
   bool shakes = false;                         ///< the history has more than the state at rest
   std::optional<double> end;                   ///< of the shaking, if settings say it [s]
   std::vector<HistoryMaterial> materials;      ///< of the section; empty where only a run can tell
+  std::optional<WaterConfig> water;            ///< of the finite elements
+  std::optional<double> toe;                   ///< that a report gives [m]
   std::optional<StopAtTransferConfig> stop;
   std::optional<ZoneConfig> zone;
   std::optional<MapConfig> map;

@@ -54,6 +54,7 @@ struct ReportStage {
   }
   static std::any preview(const Config& config, const Previews& in, Findings& found) {
     Preview p = merged(in);
+    p.toe = config.toe;
     if (p.flow && p.flow->extrude)
       found.errors.emplace_back(
           "the runout has three dimensions (the report draws sections) take this stage out of the "
