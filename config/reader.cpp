@@ -101,9 +101,8 @@ class SettingsReader final : public FieldVisitor {
     if (!node || (what == Moved::list && node->kind() != YamlNode::Kind::list)) return;
     frame.refused.emplace_back(key);
     note(node->key_where().line,
-         fmt::format("{}: {}: '{}' is written as in an older version {}",
-                     node->key_where().text(), frame.path.empty() ? "the file" : frame.path, key,
-                     text));
+         fmt::format("{}: {}: '{}' is written as in an older version {}", node->key_where().text(),
+                     frame.path.empty() ? "the file" : frame.path, key, text));
   }
   void passed_over(std::string_view key) override { frames_.back().known.emplace_back(key); }
 

@@ -73,9 +73,10 @@ class References {
     std::string circle;
     for (const auto* link : chain_) circle += link->path_text() + " -> ";
     const std::string end = target.path ? target.path_text() : "the file";
-    throw fail(node, fmt::format(" refers to itself ({}{}) {}", circle, end,
-                                 target.kind == Kind::scalar ? "give one of them a value"
-                                                             : "refer to a part that lies outside"));
+    throw fail(node,
+               fmt::format(" refers to itself ({}{}) {}", circle, end,
+                           target.kind == Kind::scalar ? "give one of them a value"
+                                                       : "refer to a part that lies outside"));
   }
 
   Tree find_target(const YamlNode::Data& from, const std::string& target) {
@@ -106,10 +107,9 @@ class References {
     std::vector<std::string> known;
     for (const auto& [name, unused] : node.entries) known.push_back(name);
     const auto near = nearest(key, known);
-    throw fail(from,
-               fmt::format(": {} has no key '{}' (a reference needs a value that is written "
-                           "there){}",
-                           path, key, near ? fmt::format(" did you mean '{}'?", *near) : ""));
+    throw fail(from, fmt::format(": {} has no key '{}' (a reference needs a value that is written "
+                                 "there){}",
+                                 path, key, near ? fmt::format(" did you mean '{}'?", *near) : ""));
   }
 
   /// The value of `source` for `node`, which keeps its own place and path; what lies below is told
@@ -117,12 +117,14 @@ class References {
   void copy(const YamlNode::Data& source, YamlNode::Data& node, const std::string& written,
             std::size_t depth, const YamlNode::Data& reference) {
     const auto refuse = [&](const char* problem) {
-      return error_at(reference.where, reference.path_text(),
-                      fmt::format("'{}' {} write the value in place of the reference", written,
-                                  problem));
+      return error_at(
+          reference.where, reference.path_text(),
+          fmt::format("'{}' {} write the value in place of the reference", written, problem));
     };
-    if (++copied_ > kMaxCopied) throw refuse("makes the file too large (of references in references)");
-    if (depth > static_cast<std::size_t>(kMaxDepth)) throw refuse("nests too deep (of references in references)");
+    if (++copied_ > kMaxCopied)
+      throw refuse("makes the file too large (of references in references)");
+    if (depth > static_cast<std::size_t>(kMaxDepth))
+      throw refuse("nests too deep (of references in references)");
     const auto child = [&](const Tree& from, const std::string& key) {
       auto to = std::make_shared<YamlNode::Data>();
       to->where = from->where;

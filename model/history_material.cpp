@@ -19,7 +19,8 @@ std::string names_of(const std::vector<HistoryMaterial>& materials) {
 }
 
 /// The material with the tag that a text is; null if it is none.
-const HistoryMaterial* of_tag(const std::vector<HistoryMaterial>& materials, std::string_view text) {
+const HistoryMaterial* of_tag(const std::vector<HistoryMaterial>& materials,
+                              std::string_view text) {
   std::int32_t tag = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), tag);
   if (error != std::errc() || end != text.data() + text.size()) return nullptr;
@@ -61,11 +62,10 @@ const HistoryMaterial& find_material(const std::vector<HistoryMaterial>& materia
   for (const HistoryMaterial& m : materials)
     if (m.name == name) return m;
   const HistoryMaterial* tagged = of_tag(materials, name);
-  throw InputError(
-      tagged ? fmt::format("{}: {} is a tag (materials go by their names) write {}", setting, name,
-                           tagged->name)
-             : fmt::format("{}: the section has no material '{}' (known: {})", setting, name,
-                           names_of(materials)));
+  throw InputError(tagged ? fmt::format("{}: {} is a tag (materials go by their names) write {}",
+                                        setting, name, tagged->name)
+                          : fmt::format("{}: the section has no material '{}' (known: {})", setting,
+                                        name, names_of(materials)));
 }
 
 std::vector<double> element_densities(const QuadMesh& mesh,

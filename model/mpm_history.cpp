@@ -227,12 +227,11 @@ struct MpmHistory::Impl {
 };
 
 MpmHistory::MpmHistory(const std::filesystem::path& path)
-    : impl_(new Impl{
-          .in = FieldReader(path, kKind, kFormat, kOldest),
-          .initial = {},
-          .rest = {},
-          .times = {},
-          .samples = {}}) {
+    : impl_(new Impl{.in = FieldReader(path, kKind, kFormat, kOldest),
+                     .initial = {},
+                     .rest = {},
+                     .times = {},
+                     .samples = {}}) {
   const FieldReader& in = impl_->in;
   impl_->initial = read_particles(in);
   visit_rule(impl_->rest, [&in](const char* name, const char*, double& value) {

@@ -278,7 +278,7 @@ TEST_CASE("a section is drawn before anything runs", "[cli]") {
   CHECK(drawn.code == 0);
   CHECK_THAT(drawn.out, Contains("section.svg: 1849 elements, 2003 nodes"));
   const std::string svg = read_text_file(scratch / "section.svg");
-  CHECK_THAT(svg, Contains("<svg") && Contains("material 168 (") && Contains("runout begins here"));
+  CHECK_THAT(svg, Contains("<svg") && Contains("tailings (") && Contains("runout begins here"));
   CHECK_FALSE(std::filesystem::exists(scratch / "runs"));
   const Outcome other = call(scratch, "plot " + file + " --out section.bmp");
   CHECK(other.code == 2);

@@ -112,7 +112,8 @@ TEST_CASE("a reference to nothing, or to itself, is refused", "[config]") {
   CHECK(load_problem("cell: 1 m\nz: ${cel}").find("did you mean 'cell'?") != std::string::npos);
   CHECK(load_problem("a: {b: \"${a}\"}") ==
         "case.yaml:1:8: a.b: '${a}' refers to itself (a.b -> a) refer to a part that lies outside");
-  CHECK(load_problem("a: {b: \"${c}\"}\nc: {d: \"${a}\"}").find("(a.b -> c.d -> a)") != std::string::npos);
+  CHECK(load_problem("a: {b: \"${c}\"}\nc: {d: \"${a}\"}").find("(a.b -> c.d -> a)") !=
+        std::string::npos);
   CHECK(problem("z: ${none}").find("none is without a value") != std::string::npos);
   CHECK(problem("z: ${list.7}").find("list has no item '7'") != std::string::npos);
   CHECK(problem("z: ${}").find("is not a path") != std::string::npos);

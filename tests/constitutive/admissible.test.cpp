@@ -43,7 +43,7 @@ TEMPLATE_LIST_TEST_CASE("What a law admits it admits unchanged, and it admits wh
   std::mt19937_64 random(11);
   int outside = 0, inside = 0;
   for (int i = 0; i < 3000; ++i) {
-    auto total = random_voigt<Stress<2>>(random, 60e3);
+    auto total = random_voigt<Stress<2>>(random, i % 4 == 1 ? 3e3 : 60e3);
     for (int k = 0; k < 3; ++k) total[k] -= i % 2 ? 60e3 : 0.0;
     auto state = M::initial_state(params);
     if constexpr (requires { state.pore_pressure; }) state.pore_pressure = i % 3 ? 20e3 : 0.0;
@@ -53,7 +53,7 @@ TEMPLATE_LIST_TEST_CASE("What a law admits it admits unchanged, and it admits wh
     const AdmissibleStress again =
         M::admissible(c, state, r.stress, LiquefiedReturn::vertical_stress);
     CHECK(distance(again.stress, r.stress) <= 1e-6 * 60e3);
-    CHECK(again.before == Approx(r.after).margin(1e-9));
+    CHECK(again.before <= 1e-9);
     if (r.before > 1e-9) {
       ++outside;
       CHECK(distance(r.stress, total) > 0.0);
@@ -69,7 +69,7 @@ TEMPLATE_LIST_TEST_CASE("What a law admits it admits unchanged, and it admits wh
 
 TEST_CASE("The surfaces of other laws are met where they are known", "[constitutive]") {
   constexpr LiquefiedReturn keeps = LiquefiedReturn::vertical_stress;
-  const Stress<2> total{{-50e3, -50e3, -50e3, 60e3}};  // p = 50 kPa, tau = 60 kPa
+  const Stress<2> total{{-50e3, -50e3, -50e3, 120e3}};  // p = 50 kPa, tau = 120 kPa
   const auto at_rest = [&]<class M>(std::type_identity<M>) {
     const auto params = sample_params<M>();
     return M::admissible(M::constants(params, 1.0), M::initial_state(params), total, keeps).stress;
@@ -86,7 +86,7 @@ TEST_CASE("The surfaces of other laws are met where they are known", "[constitut
   CHECK(at_rest(std::type_identity<NorSand>{})[3] ==
         Approx(50e3 * m * (1.0 + std::log(4.0)) / std::sqrt(3.0)));
   // Fluids carry the shear at some rate, but no tension.
-  CHECK(at_rest(std::type_identity<Bingham>{})[3] == 60e3);
+  CHECK(at_rest(std::type_identity<Bingham>{})[3] == 120e3);
   const auto fluid = sample_params<NewtonianFluid>();
   CHECK(NewtonianFluid::admissible(NewtonianFluid::constants(fluid, 1.0), {},
                                    {{3e3, 1e3, 2e3, 5e3}}, keeps)

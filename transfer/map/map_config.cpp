@@ -17,12 +17,14 @@ constexpr std::array<std::string_view, 2> kBaseNames{"bottom_left", "mean"};
 }  // namespace
 
 void Schema<MapMaterial>::describe(FieldVisitor& v, MapMaterial& m) {
-  v.moved("tags",
-          "(materials go by their names) remove it; 'tailings: {...}' is the material 'tailings' of "
-          "the section, and 'of: [clay, silt]' makes one of two");
-  v.moved("density",
-          "(the shaking brings the densities of its materials) remove it; it is that of fem.run, or "
-          "of import.opensees with 'materials: {tailings: {tag: 168, density: 1870 kg/m3}}'");
+  v.moved(
+      "tags",
+      "(materials go by their names) remove it; 'tailings: {...}' is the material 'tailings' of "
+      "the section, and 'of: [clay, silt]' makes one of two");
+  v.moved(
+      "density",
+      "(the shaking brings the densities of its materials) remove it; it is that of fem.run, or "
+      "of import.opensees with 'materials: {tailings: {tag: 168, density: 1870 kg/m3}}'");
   v.texts("of", m.of,
           "materials of the section that become this one; left out: that of the same name");
   describe_laws(v, m.law);
@@ -75,9 +77,10 @@ void Schema<MapConfig>::describe(FieldVisitor& v, MapConfig& c) {
   v.table("materials", c.materials, "materials of the finite-element model by name");
   v.group("audit", c.audit, Schema<AuditLimits>::doc);
   for (const char* key : {"compat", "sordo2024"})
-    v.moved(key,
-            "(the published script is a stage of its own) write 'uses: transfer.sordo2024' with the "
-            "settings of the group sordo2024, cell and grid_origin");
+    v.moved(
+        key,
+        "(the published script is a stage of its own) write 'uses: transfer.sordo2024' with the "
+        "settings of the group sordo2024, cell and grid_origin");
 }
 
 std::vector<std::string> sources_of(const std::string& name, const MapMaterial& material) {
@@ -99,17 +102,19 @@ void check(const MapConfig& c) {
       "or less, or seeding: lattice",
       c.points_per_cell);
   const Box box = box_of(c.box);
-  validate(box.xmin < box.xmax && box.ymin < box.ymax,
-           "map: box from x = {:g} to {:g} m and y = {:g} to {:g} m is empty (left lies below right, "
-           "bottom below top)",
-           box.xmin, box.xmax, box.ymin, box.ymax);
+  validate(
+      box.xmin < box.xmax && box.ymin < box.ymax,
+      "map: box from x = {:g} to {:g} m and y = {:g} to {:g} m is empty (left lies below right, "
+      "bottom below top)",
+      box.xmin, box.xmax, box.ymin, box.ymax);
   std::set<std::string> seen;
   for (const auto& [name, m] : c.materials) {
     for (const std::string& source : sources_of(name, m))
-      validate(seen.insert(source).second,
-               "map: the material '{}' of the section becomes two (an element has one material); the "
-               "second is '{}'",
-               source, name);
+      validate(
+          seen.insert(source).second,
+          "map: the material '{}' of the section becomes two (an element has one material); the "
+          "second is '{}'",
+          source, name);
     make_material(m.law, name);
     validate(!m.liquefied || c.c_soft_ratio,
              "map: c_soft_ratio is missing (material '{}' may liquefy and softens to c_soft = "

@@ -129,9 +129,9 @@ MapResult map_state(const QuadMesh& mesh, const std::vector<HistoryMaterial>& ma
   const MapGroups groups = group_elements(mesh, materials, state.positions, box, zone, config);
   const SeedDomain domain{mesh, state.positions, groups.density, groups.group, box};
   const SeedSet seeds = place_points(domain, config, progress);
-  validate(
-      !seeds.seeds.empty(),
-      "map: no element lies inside the box (there is nothing to transfer). Check box and materials");
+  validate(!seeds.seeds.empty(),
+           "map: no element lies inside the box (there is nothing to transfer). Check box and "
+           "materials");
 
   MapResult result;
   ParticleSet& p = result.particles;
@@ -168,7 +168,7 @@ MapResult map_state(const QuadMesh& mesh, const std::vector<HistoryMaterial>& ma
 MapResult map_state(const FemHistory& history, const LiquefactionZone& zone,
                     const MapConfig& config, const Progress& progress) {
   const FemFrame& gravity = history.gravity();
-  if (zone.transfer_frame < 0) 
+  if (zone.transfer_frame < 0)
     return map_state(history.mesh(), history.materials(), gravity, nullptr, zone, config, progress);
   validate(static_cast<std::size_t>(zone.transfer_frame) < history.times().size(),
            "map: the zone names frame {} but the history has {} (it belongs to another history). "

@@ -43,11 +43,10 @@ void check_sizes(const QuadMesh& mesh, const FemFrame& f, const char* what, bool
            "the {} of the history lacks pore pressure, displacement or velocity of the {} nodes "
            "(the script transfers them) import these recorders as well",
            what, mesh.num_nodes());
-  validate(
-      f.stress.size() == mesh.num_elements() && f.strain.size() == mesh.num_elements(),
-      "the {} of the history has {} stresses and {} strains for {} elements (the script "
-      "interpolates both) import the stress and the strain recorder",
-      what, f.stress.size(), f.strain.size(), mesh.num_elements());
+  validate(f.stress.size() == mesh.num_elements() && f.strain.size() == mesh.num_elements(),
+           "the {} of the history has {} stresses and {} strains for {} elements (the script "
+           "interpolates both) import the stress and the strain recorder",
+           what, f.stress.size(), f.strain.size(), mesh.num_elements());
 }
 
 std::size_t find_base_node(const QuadMesh& mesh, int tag) {
@@ -59,11 +58,10 @@ std::size_t find_base_node(const QuadMesh& mesh, int tag) {
   const auto node = static_cast<std::size_t>(it - mesh.node_tags.begin());
   double bottom = std::numeric_limits<double>::infinity();
   for (const Vec2& x : mesh.nodes) bottom = std::min(bottom, x[1]);
-  validate(
-      mesh.nodes[node][1] == bottom,
-      "base_node: node {} at ({:.6g}, {:.6g}) m is not on the base y = {:.6g} m (its "
-      "displacement is subtracted as that of the base) give the bottom left node of the dam",
-      tag, mesh.nodes[node][0], mesh.nodes[node][1], bottom);
+  validate(mesh.nodes[node][1] == bottom,
+           "base_node: node {} at ({:.6g}, {:.6g}) m is not on the base y = {:.6g} m (its "
+           "displacement is subtracted as that of the base) give the bottom left node of the dam",
+           tag, mesh.nodes[node][0], mesh.nodes[node][1], bottom);
   return node;
 }
 
@@ -260,11 +258,10 @@ ParticleSet map_sordo2024(const QuadMesh& mesh, const FemFrame& gravity, const F
       append_history(set, config, element, *tag, f[3], f[4], f[5]);
     }
   }
-  validate(
-      set.size() > 0,
-      "no point of the {} elements lies inside keep_x and keep_y (nothing is left to "
-      "run out) check their units and signs",
-      mesh.num_elements());
+  validate(set.size() > 0,
+           "no point of the {} elements lies inside keep_x and keep_y (nothing is left to "
+           "run out) check their units and signs",
+           mesh.num_elements());
   index_materials(set, config);
   set.notes = sordo2024_defects();
   return set;
@@ -273,11 +270,10 @@ ParticleSet map_sordo2024(const QuadMesh& mesh, const FemFrame& gravity, const F
 ParticleSet map_sordo2024(const FemHistory& history, const SordoConfig& config) {
   if (config.frame < 0) return map_sordo2024(history.mesh(), history.gravity(), nullptr, config);
   const std::size_t count = history.times().size();
-  validate(
-      static_cast<std::size_t>(config.frame) < count,
-      "frame is {} but the history has {} frames (rows count from 0) give one of 0 to "
-      "{}, or -1 for gravity",
-      config.frame, count, static_cast<long>(count) - 1);
+  validate(static_cast<std::size_t>(config.frame) < count,
+           "frame is {} but the history has {} frames (rows count from 0) give one of 0 to "
+           "{}, or -1 for gravity",
+           config.frame, count, static_cast<long>(count) - 1);
   const FemFrame frame = history.frame(static_cast<std::size_t>(config.frame));
   return map_sordo2024(history.mesh(), history.gravity(), &frame, config);
 }

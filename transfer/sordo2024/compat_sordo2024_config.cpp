@@ -60,7 +60,8 @@ void Schema<SordoConfig>::describe(FieldVisitor& v, SordoConfig& c) {
   v.integer("base_node", c.base_node, {.min = 1}, "tag of the bottom left node of the dam");
   v.text("tailings", c.soils.tailings, "material of the section that is the tailings");
   v.text("embankment", c.soils.embankment, "material of the section that is the embankment");
-  v.text("foundation", c.soils.foundation, "material of the section that is the elastic foundation");
+  v.text("foundation", c.soils.foundation,
+         "material of the section that is the elastic foundation");
   v.integer("saturated_embankment", c.saturated_embankment, {.min = 1},
             "tag given to embankment under the water table");
   v.tuple("keep_x", c.keep_x, Dim::length, "points outside this range of x are dropped");
@@ -77,9 +78,10 @@ void Schema<SordoConfig>::describe(FieldVisitor& v, SordoConfig& c) {
              "Young's modulus of all materials in the runout");
   v.quantity("poisson_ratio", c.poisson_ratio, Dim::none, {.min = 0.0, .below = 0.5},
              "Poisson's ratio of all materials in the runout");
-  v.moved("densities",
-          "(the shaking brings the densities of its materials) remove it; they are those of fem.run, "
-          "or of import.opensees with 'materials: {tailings: {tag: 168, density: 1870 kg/m3}}'");
+  v.moved(
+      "densities",
+      "(the shaking brings the densities of its materials) remove it; they are those of fem.run, "
+      "or of import.opensees with 'materials: {tailings: {tag: 168, density: 1870 kg/m3}}'");
   v.rows("layers", c.layers, kLayerColumns,
          "liquefied layers: smallest initial vertical effective stress, tag");
   v.rows("strengths", c.strengths, kStrengthColumns, "Mohr-Coulomb strength of each tag");
@@ -101,11 +103,9 @@ void check(const SordoConfig& c) {
   check_tags("layers", c.layers, 1);
   check_tags("strengths", c.strengths, 0);
   for (const std::vector<double>& row : c.densities) {
-    validate(row[1] > 0.0, "densities: {} kg/m3 of tag {} is not positive", row[1],
-             row[0]);
+    validate(row[1] > 0.0, "densities: {} kg/m3 of tag {} is not positive", row[1], row[0]);
   }
-  validate(!c.layers.empty(),
-           "layers is empty (liquefied tailings need a tag) give rows");
+  validate(!c.layers.empty(), "layers is empty (liquefied tailings need a tag) give rows");
   for (std::size_t i = 1; i < c.layers.size(); ++i) {
     validate(c.layers[i][0] > c.layers[i - 1][0],
              "layers: row {} starts at {} Pa, not deeper than the row before (layers are "
@@ -115,11 +115,10 @@ void check(const SordoConfig& c) {
   for (const std::vector<double>& row : c.strengths) {
     validate(row[1] >= 0.0 && row[1] < kPi / 2 && row[2] >= 0.0 && row[2] < kPi / 2,
              "strengths: a friction angle of tag {} is outside 0 to 90 deg", row[0]);
-    validate(row[3] >= 0.0 && row[4] >= 0.0,
-             "strengths: a cohesion of tag {} is negative", row[0]);
+    validate(row[3] >= 0.0 && row[4] >= 0.0, "strengths: a cohesion of tag {} is negative", row[0]);
     validate(row[5] >= 0.0 && row[6] > row[5],
-             "strengths: tag {} softens from strain {} to {} (the second must be larger)",
-             row[0], row[5], row[6]);
+             "strengths: tag {} softens from strain {} to {} (the second must be larger)", row[0],
+             row[5], row[6]);
   }
   validate(c.keep_x[0] < c.keep_x[1] && c.keep_y[0] < c.keep_y[1],
            "keep_x or keep_y is empty (the smaller limit comes first)");

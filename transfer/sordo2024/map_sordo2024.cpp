@@ -10,8 +10,7 @@ namespace {
 
 Vec2 base_displacement(const QuadMesh& mesh, const FemFrame& frame, int node_tag) {
   const auto found = std::find(mesh.node_tags.begin(), mesh.node_tags.end(), node_tag);
-  validate(found != mesh.node_tags.end(), "base_node {} is not in the mesh",
-           node_tag);
+  validate(found != mesh.node_tags.end(), "base_node {} is not in the mesh", node_tag);
   // The script removes x only.
   return {frame.displacement[static_cast<std::size_t>(found - mesh.node_tags.begin())][0], 0.0};
 }
@@ -32,10 +31,10 @@ SordoResult map_sordo2024_audited(const FemHistory& history, const LiquefactionZ
   for (std::size_t n = 0; n < positions.size(); ++n)
     for (int c = 0; c < 2; ++c) positions[n][c] += frame.displacement[n][c] - base[c];
   const SeedDomain domain{mesh,
-                    positions,
-                    element_densities(mesh, history.materials()),
-                    std::vector<std::int32_t>(mesh.num_elements(), 0),
-                    {sordo.keep_x[0], sordo.keep_x[1], sordo.keep_y[0], sordo.keep_y[1]}};
+                          positions,
+                          element_densities(mesh, history.materials()),
+                          std::vector<std::int32_t>(mesh.num_elements(), 0),
+                          {sordo.keep_x[0], sordo.keep_x[1], sordo.keep_y[0], sordo.keep_y[1]}};
   std::vector<std::uint8_t> counts;
   for (const std::int32_t tag : mesh.element_material) counts.push_back(tag != sordo.foundation);
   p.toe = toe_of(mesh, counts, domain.box);

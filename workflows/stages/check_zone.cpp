@@ -95,8 +95,8 @@ void check_map_names(const MapConfig& map, const SectionMesh& section,
   for (const std::string& name : zone->liquefiable) {
     const auto at = of_name.find(name);
     if (at == of_name.end() || at->second->liquefied) continue;
-    const std::string problem = fmt::format(
-        "materials: '{}' can liquefy (transfer.zone), but has no law for it", name);
+    const std::string problem =
+        fmt::format("materials: '{}' can liquefy (transfer.zone), but has no law for it", name);
     if (zone->zone == ZoneExtent::all)
       found.errors.push_back(problem +
                              " (its strength would be that of intact soil) add liquefied: "
