@@ -138,8 +138,8 @@ struct MohrCoulomb {
     return r;
   }
 
-  /// f / strength of the shear part or of the tension limit, whichever is larger, of the stress that
-  /// friction acts on. The strength is that at the present confinement, at least that without
+  /// f / strength of the shear part or of the tension limit, whichever is larger, of the stress
+  /// that friction acts on. The strength is that at the present confinement, at least that without
   /// confinement and 1 Pa.
   static double violation(const MohrCoulombSurface<double>& surface, const Stress<2>& stress) {
     const double centre = 0.5 * (stress[0] + stress[1]);

@@ -90,8 +90,8 @@ struct MuI {
     return r;
   }
 
-  /// No tension, and the deviator scaled to mu_2 p, which no rate exceeds: between mu_s and mu_2 the
-  /// stress says how fast it flows.
+  /// No tension, and the deviator scaled to mu_2 p, which no rate exceeds: between mu_s and mu_2
+  /// the stress says how fast it flows.
   static AdmissibleStress admissible(const Constants& c, const State& s, const Stress<2>& total,
                                      LiquefiedReturn) {
     const double mean = mean_stress(total), tau = std::sqrt(j2(total));
