@@ -20,14 +20,18 @@ Material make_material(const std::string& name, const FemMaterialConfig& c) {
   return m;
 }
 
+const FemMaterialConfig& settings_of(const MaterialName& m, const FemConfig& config) {
+  const auto at = config.materials.find(m.name);
+  validate(at != config.materials.end(),
+           "the mesh has a material {} (tag {}) that materials does not describe", m.name, m.tag);
+  return at->second;
+}
+
 void set_materials(Model& r, const SectionMesh& section, const FemConfig& config) {
   std::map<std::int32_t, std::int32_t> index;
   for (const MaterialName& m : section.materials) {
-    const auto at = config.materials.find(m.name);
-    validate(at != config.materials.end(),
-             "the mesh has a material {} (tag {}) that materials does not describe", m.name, m.tag);
     index[m.tag] = static_cast<std::int32_t>(r.materials.size());
-    r.materials.push_back(make_material(m.name, at->second));
+    r.materials.push_back(make_material(m.name, settings_of(m, config)));
   }
   for (const auto& [name, unused] : config.materials) (void)material_tag(section, name);
   r.material.reserve(r.mesh.num_elements());
@@ -199,6 +203,21 @@ void set_water(Model& r, const Outline& outline, const SectionMesh& section,
 }
 
 }  // namespace
+
+std::vector<HistoryMaterial> history_materials(const SectionMesh& section,
+                                               const FemConfig& config) {
+  std::vector<HistoryMaterial> materials;
+  for (const MaterialName& m : section.materials) {
+    const FemMaterialConfig& c = settings_of(m, config);
+    std::string law;
+    ShakingLaws::each([&]<class M>() {
+      if (c.laws.of<M>()) law = M::name;
+    });
+    materials.push_back(
+        {m.name, m.tag, c.density, c.void_ratio / (1.0 + c.void_ratio), std::move(law)});
+  }
+  return materials;
+}
 
 double water_level(const WaterConfig& water, double x) {
   const auto& table = water.table;

@@ -288,7 +288,7 @@ FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const F
       .base = nodes_of(find_set(section, "base")),
       .frame = rest,
       .history = ResumableHistoryWriter(
-          paths.history, section.mesh,
+          paths.history, section.mesh, history_materials(section, config),
           {"flowslide fem.run",
            "mean of xx and yy for PM4Sand, elastic plane strain for other laws", notes},
           rest, static_cast<std::size_t>(run.output - 1))};

@@ -1,5 +1,6 @@
 #pragma once
 #include "model/particle_set.hpp"
+#include "model/rest_rule.hpp"
 
 #include <array>
 #include <filesystem>
@@ -27,7 +28,7 @@ struct MpmFrame {
 /// not; the front counts points that left with the place where they did.
 struct MpmSample {
   double time = 0.0;
-  double runout = 0.0;         ///< [m] past the toe, by the fifth-farthest point
+  double runout = 0.0;         ///< [m] past ParticleSet::toe, by the fifth-farthest point
   double front = 0.0;          ///< x of the fifth-farthest point [m]
   double kinetic = 0.0;        ///< kinetic energy [J]
   double gravity_work = 0.0;   ///< work of gravity since the start [J]
@@ -90,7 +91,7 @@ class MpmHistoryWriter {
   /// @param frames, samples already there: they are compared with their checksums and kept, what
   ///   comes behind is dropped. Without frames the folder is made anew.
   MpmHistoryWriter(const std::filesystem::path& path, const ParticleSet& initial,
-                   std::size_t frames = 0, std::size_t samples = 0);
+                   const RestRule& rest, std::size_t frames = 0, std::size_t samples = 0);
   ~MpmHistoryWriter();
   MpmHistoryWriter(const MpmHistoryWriter&) = delete;
   MpmHistoryWriter& operator=(const MpmHistoryWriter&) = delete;
@@ -115,8 +116,10 @@ class MpmHistory {
   ~MpmHistory();
   MpmHistory(MpmHistory&&) noexcept;
   MpmHistory& operator=(MpmHistory&&) noexcept;
-  /// The particles as they were handed over, in order of id: material, mass, initial state.
+  /// The particles as they were handed over, in order of id: material, mass, initial state, toe.
   [[nodiscard]] const ParticleSet& initial() const;
+  /// What the run ended by, if it did not end by its time.
+  [[nodiscard]] const RestRule& rest() const;
   [[nodiscard]] std::size_t num_frames() const;
   [[nodiscard]] MpmFrame frame(std::size_t index) const;
   [[nodiscard]] const std::vector<MpmSample>& samples() const;

@@ -37,7 +37,7 @@ struct Movement {
 };
 
 struct ReportFacts {
-  double toe = kUnset;             ///< x [m]; unset if not given and never passed
+  double toe = kUnset;             ///< x from which the runout counts [m]
   double runout = 0.0;             ///< [m] fifth-farthest point past the toe
   double front = kUnset;           ///< x of the fifth-farthest point [m]
   double front_mass = kUnset;      ///< x beyond which mass_quantile of the failed mass lies [m]
@@ -74,7 +74,8 @@ ReportFacts compute_facts(const LiquefactionZone& zone, const MpmHistory& flow,
 
 /// Fills facts.warnings; compute_facts calls it last.
 void add_warnings(ReportFacts& facts, const ParticleSet& initial, const FinalState& end,
-                  const std::vector<MpmSample>& samples, const ReportConfig& config);
+                  const std::vector<MpmSample>& samples, const RestRule& rest,
+                  const ReportConfig& config);
 
 /// JSON object with units in its keys: runout_m, liquefaction_depth_<window>_m, transfer_time_s,
 /// mass_error, ... A number that is unset becomes null.

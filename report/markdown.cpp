@@ -150,7 +150,7 @@ std::string liquefaction(const ReportInputs& in) {
   return out;
 }
 
-std::string definitions(const ReportConfig& c) {
+std::string definitions(const ReportConfig& c, const RestRule& rest) {
   return fmt::format(
       "- Plane strain; volumes, masses and energies are per metre of width.\n"
       "- Runout: x of the fifth-farthest material point of the materials that count (all but the "
@@ -165,7 +165,7 @@ std::string definitions(const ReportConfig& c) {
       "- Balance errors: at the end of the run; of mass the largest. The energy error contains "
       "what "
       "the time integration and the transfer between points and grid lost unaccounted for.\n\n",
-      c.moved, c.rest_front, c.rest_window, c.rest_kinetic);
+      c.moved, rest.runout_change, rest.window, rest.kinetic_share);
 }
 
 }  // namespace
@@ -182,7 +182,7 @@ std::string report_markdown(const ReportInputs& in, const ReportConfig& c, const
   out += "## Figures\n\n" + figures(drawn);
   out += "## Liquefied zone and transfer time\n\n" + liquefaction(in);
   out += "## Audit of the transfer\n\n" + audit_tables(in.audit);
-  out += "## Definitions\n\n" + definitions(c);
+  out += "## Definitions\n\n" + definitions(c, in.flow.rest());
   if (!in.provenance.empty()) out += "## What was run\n\n" + table("item", "value", in.provenance);
   out +=
       "## Files\n\n"

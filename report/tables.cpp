@@ -3,6 +3,7 @@
 #include "core/check.hpp"
 #include "report/facts.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <utility>
 
@@ -25,7 +26,7 @@ std::string column_name(std::string_view name) {
   return out;
 }
 
-std::string runout_csv(const std::vector<MpmSample>& samples) {
+std::string runout_csv(const std::vector<MpmSample>& samples, double toe) {
   // The speed of the front stands beside the front.
   const auto ends_place = [](const SampleColumn& c) { return c.value == &MpmSample::front; };
   std::string out;
@@ -37,7 +38,10 @@ std::string runout_csv(const std::vector<MpmSample>& samples) {
   const std::vector<double> speed = front_speed(samples);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     for (const SampleColumn& c : kSampleColumns) {
-      out += fmt::format("{}{}", &c == kSampleColumns.data() ? "" : ",", samples[i].*c.value);
+      // The toe of the report is a datum that may differ from that of the flow.
+      const bool moves = is_set(toe) && c.value == &MpmSample::runout;
+      const double value = moves ? std::max(0.0, samples[i].front - toe) : samples[i].*c.value;
+      out += fmt::format("{}{}", &c == kSampleColumns.data() ? "" : ",", value);
       if (ends_place(c)) out += fmt::format(",{}", speed[i]);
     }
     out += '\n';

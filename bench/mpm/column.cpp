@@ -74,7 +74,6 @@ Simulation<Dim> bench_column(int points_per_side, BasisKind basis, BenchLaw law)
   }
   FlowConfig c;
   c.cell = kCell;
-  c.toe = 0.0;
   c.end = 1.0;
   c.basis = basis;
   c.ground.friction = 0.5;

@@ -34,7 +34,7 @@ void index_by_id(mpm::Simulation<Dim>& s, const ParticleSet& particles) {
     s.points.index[order[rank]] = static_cast<std::int32_t>(rank);
 }
 
-bool at_rest(const mpm::RunState& run, const MpmSample& now, const RestSettings& rest) {
+bool at_rest(const mpm::RunState& run, const MpmSample& now, const RestRule& rest) {
   if (now.time < rest.window || run.recent.empty()) return false;
   const auto [low, high] =
       std::minmax_element(run.recent.begin(), run.recent.end(),
@@ -204,11 +204,11 @@ FlowFacts run_in(const ParticleSet& particles, const FlowConfig& config, const F
       .run = run,
       .config = config,
       .checkpoint = paths.checkpoint,
-      .reference = reference_of<Dim>(run, config.toe),
+      .reference = reference_of<Dim>(run, particles.toe),
       .counts = counts,
       .elastic = std::all_of(materials.begin(), materials.end(),
                              [](const auto& m) { return m.law == LinearElastic::name; }),
-      .history = MpmHistoryWriter(paths.history, particles, run.frames, run.samples)};
+      .history = MpmHistoryWriter(paths.history, particles, config.rest, run.frames, run.samples)};
   if (!resume) runout.store();
   const std::int64_t first_updates = run.updates;
   FlowFacts facts;
@@ -227,6 +227,9 @@ FlowFacts run_in(const ParticleSet& particles, const FlowConfig& config, const F
 
 FlowFacts run_flow(const ParticleSet& particles, const FlowConfig& config, const FlowPaths& paths,
                    int threads, const Progress& progress) {
+  validate(is_set(particles.toe),
+           "the points do not say from where the runout counts (no soil among them counts for it) "
+           "let a material count, or give them a toe");
   if (!config.extrude) return run_in<2>(particles, config, paths, threads, progress);
   FlowConfig valley = config;
   if (config.extrude->sides != Sides::open) valley.side_rollers = {0.0, config.extrude->width};

@@ -79,7 +79,6 @@ ParticleSet block(const MaterialSpec& material) {
 FlowConfig settings() {
   FlowConfig c;
   c.cell = 0.5;
-  c.toe = 6.0;
   c.end = 10.0;
   c.ground.surface = {{-10.0, 0.0}, {8.0, 0.0}, {20.0, -3.0}};
   c.ground.friction = 0.4;
@@ -92,7 +91,7 @@ std::string digest(const ParticleSet& p, const FlowConfig& c, int threads, int s
   Simulation<Dim> s = make_simulation<Dim>(p, c);
   StepScratch<Dim> scratch(threads);
   prepare(s, scratch, true);
-  const Reference<Dim> start{sum_points(s), c.toe};
+  const Reference<Dim> start{sum_points(s), 6.0};
   for (int i = 0; i < steps; ++i) advance(s, scratch);
   Digest d;
   visit_arrays(s.points, [&](auto& array) {

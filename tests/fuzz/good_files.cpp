@@ -7,6 +7,7 @@
 #include "model/section_mesh.hpp"
 #include "model/zone.hpp"
 #include "tests/fuzz/input.hpp"
+#include "tests/support/materials.hpp"
 
 namespace flowslide::fuzz {
 namespace {
@@ -36,7 +37,8 @@ FemFrame frame_at(double time) {
 }
 
 void write_shaking(const std::filesystem::path& path) {
-  FemHistoryWriter out(path, two_squares().mesh, {"a test", "mean", {"a note"}});
+  FemHistoryWriter out(path, two_squares().mesh, test::materials_of(two_squares().mesh),
+                       {"a test", "mean", {"a note"}});
   out.set_gravity(frame_at(0.0));
   for (const double time : {0.1, 0.2}) out.append(frame_at(time));
   out.finish();
@@ -75,7 +77,7 @@ ParticleSet particles() {
 }
 
 void write_runout(const std::filesystem::path& path) {
-  MpmHistoryWriter out(path, particles());
+  MpmHistoryWriter out(path, particles(), {});
   for (const double time : {0.0, 0.5}) {
     MpmFrame f;
     f.time = time;

@@ -19,7 +19,7 @@ TEST_CASE("runout.csv has a named column per quantity and the speed of the front
   samples[1].kinetic = 1.0 / 3.0;
   samples[1].energy_error = kUnset;
   samples[1].load_work = -2.0;
-  CHECK(runout_csv(samples) ==
+  CHECK(runout_csv(samples, 75.0) ==
         "time_s,runout_m,front_m,front_speed_m_s,kinetic_J_per_m,gravity_work_J_per_m,"
         "strain_energy_J_per_m,plastic_work_J_per_m,friction_work_J_per_m,damping_work_J_per_m,"
         "energy_error,momentum_error,mass_error,max_speed_m_s,dt_s,active_particles,points_left,"

@@ -213,7 +213,7 @@ TEST_CASE("a choice is not settled while the last frame is it", "[transfer]") {
 
 TEST_CASE("a run cannot be stopped by a rule that says nothing about its end", "[transfer]") {
   StopAtTransferConfig c;
-  c.liquefiable = {168};
+  c.liquefiable = {"tailings"};
   c.pond_surface = 30.0;
   CHECK_NOTHROW(check(c));
   c.transfer.when = TransferWhen::end;

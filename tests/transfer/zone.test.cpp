@@ -24,7 +24,7 @@ class Column {
       : path_(std::filesystem::temp_directory_path() /
               fmt::format("flowslide-zone-{}-{}.h5", getpid(), next_++)) {
     for (std::size_t e = 0; e < 20; ++e) mesh.element_material[e] = 2;
-    FemHistoryWriter writer(path_, mesh, {});
+    FemHistoryWriter writer(path_, mesh, {{"sand", 1, 2000.0}, {"rock", 2, 1500.0}}, {});
     FemFrame gravity = rest();
     writer.set_gravity(gravity);
     for (std::size_t k = 0; k < levels.size(); ++k) {
@@ -69,10 +69,9 @@ class Column {
 
 ZoneConfig column_config() {
   ZoneConfig c;
-  c.liquefiable = {1};
+  c.liquefiable = {"sand"};
   c.pond_surface = 10.0;
   c.windows = {{"left", {0.0, 4.0}}, {"right", {6.0, 10.0}}};
-  c.densities = {{1, 2000.0}, {2, 1500.0}};
   c.strength.table = {{0.0, 1e3}, {100e3, 11e3}};
   c.strength.bin_width = 20e3;
   c.strength.last_bin = 60e3;
@@ -146,7 +145,6 @@ TEST_CASE("the box leaves columns out of zone and energy", "[transfer]") {
   ZoneConfig config = column_config();
   config.box.left = 2.0;
   config.box.bottom = 2.0;
-  config.densities = {{1, 2000.0}};
   const LiquefactionZone zone = Column({4.0}).find(config);
   CHECK(zone.history.kinetic_energy[0] == Approx(0.5 * 64.0 * 2000.0 * 4.0));
   CHECK(std::ranges::count(zone.liquefied, 1) == 6 * 8);
@@ -158,7 +156,6 @@ TEST_CASE("a gravity state is transferred with a zone given by the user", "[tran
   ZoneConfig config = column_config();
   config.transfer.when = TransferWhen::gravity;
   config.zone = ZoneExtent::all;
-  config.densities.clear();
   const Column column({});
   const LiquefactionZone all = column.find(config);
   CHECK(all.transfer_frame == -1);
@@ -209,8 +206,10 @@ TEST_CASE("settings that do not fit the mesh or each other are refused", "[trans
     change(c);
     return column.find(c);
   };
-  CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.liquefiable = {3}; }),
-                    Catch::Contains("no element has material 3"));
+  CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.liquefiable = {"clay"}; }),
+                    Catch::Contains("no material 'clay' (known: sand, rock)"));
+  CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.liquefiable = {"1"}; }),
+                    Catch::Contains("liquefiable: 1 is a tag") && Catch::Contains("write sand"));
   CHECK_THROWS_WITH(with([](ZoneConfig& c) {
                       c.windows = {{"pond", {-70.0, -50.0}}};
                     }),
@@ -223,12 +222,6 @@ TEST_CASE("settings that do not fit the mesh or each other are refused", "[trans
                     Catch::Contains("box holds no liquefiable element"));
   CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.base_nodes = {4711}; }),
                     Catch::Contains("no node 4711"));
-  CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.densities.pop_back(); }),
-                    Catch::Contains("material 2 of element 1 has no density"));
-  CHECK_THROWS_WITH(with([](ZoneConfig& c) {
-                      c.densities.push_back({1, 1800.0});
-                    }),
-                    Catch::Contains("given twice"));
   CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.transfer.when = TransferWhen::gravity; }),
                     Catch::Contains("write zone: all"));
   CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.zone = ZoneExtent::line; }),

@@ -80,7 +80,7 @@ LiquefactionZone find_zone(const FemHistory& history, const ZoneConfig& config,
                            const Progress& progress) {
   check(config);
   const QuadMesh& mesh = history.mesh();
-  ZoneRecorder record(mesh, history.gravity(), config);
+  ZoneRecorder record(mesh, history.materials(), history.gravity(), config);
   const std::size_t frames = history.times().size();
   for (std::size_t i = 0; i < frames; ++i) {
     if (progress.should_stop()) throw Interrupted("stopped while the frames were read");

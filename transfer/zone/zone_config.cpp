@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <limits>
-#include <set>
 
 namespace flowslide {
 
@@ -25,18 +24,6 @@ struct Schema<RuConfig> {
 };
 
 template <>
-struct Schema<ZoneBox> {
-  static constexpr std::string_view doc =
-      "Part of the section that counts, without free-field columns; open where nothing is given.";
-  static void describe(FieldVisitor& v, ZoneBox& c) {
-    v.quantity("left", c.left, Dim::length, {}, "smallest x");
-    v.quantity("right", c.right, Dim::length, {}, "largest x");
-    v.quantity("bottom", c.bottom, Dim::length, {}, "smallest y");
-    v.quantity("top", c.top, Dim::length, {}, "largest y");
-  }
-};
-
-template <>
 struct Schema<ColumnConfig> {
   static constexpr std::string_view doc = "Columns in which the automatic zone is found.";
   static void describe(FieldVisitor& v, ColumnConfig& c) {
@@ -48,15 +35,15 @@ struct Schema<ColumnConfig> {
 };
 
 void Schema<TransferRuleConfig>::describe(FieldVisitor& v, TransferRuleConfig& c) {
-  static constexpr std::array<FieldVisitor::Column, 2> kDensity{
-      {{"material", Dim::none}, {"density", Dim::density}}};
-  v.integers("liquefiable", c.liquefiable, "material tags of the soil that can liquefy");
+  v.texts("liquefiable", c.liquefiable, "materials that can liquefy, by name");
   v.quantity("pond_surface", c.pond_surface, Dim::length, {},
              "y of the original pond surface, the datum of depths");
   v.choice("when", c.transfer.when, kTransferWhens, "what decides the transfer time");
   v.quantity("at", c.transfer.at, Dim::time, {}, "transfer time, with when: at");
-  v.rows("densities", c.densities, kDensity,
-         "density of each material tag, for the kinetic energy");
+  v.moved("densities",
+          "(the shaking brings the densities of its materials) remove it; they are those of "
+          "fem.run, or of import.opensees with 'materials: {tailings: {tag: 168, density: 1870 "
+          "kg/m3}}'");
   v.group("box", c.box, "part of the section that counts");
   v.table(
       "windows", c.windows,
@@ -109,24 +96,14 @@ DepthWindows windows_or_all(const TransferRuleConfig& c) {
 
 void check(const TransferRuleConfig& c) {
   validate(!c.liquefiable.empty(),
-           "liquefiable is empty (no material can liquefy) give the material tags, e.g. [168]");
+           "liquefiable is empty (no material can liquefy) give materials by name, e.g. "
+           "[tailings]");
   validate(std::isfinite(c.pond_surface),
            "pond_surface is not set (depths have no datum) give it, e.g. 30 m");
   for (const auto& [name, window] : c.windows) {
     validate(window.from < window.to,
              "windows.{}: from {} m is not less than to {} m (the window is empty) exchange them?",
              name, window.from, window.to);
-  }
-  std::set<double> tags;
-  for (const std::vector<double>& row : c.densities) {
-    validate(row.size() == 2 && row[0] == std::round(row[0]) && std::abs(row[0]) < 2147483647.0,
-             "densities: {} is not a material tag (tags are whole numbers) correct the row",
-             row.empty() ? kUnset : row[0]);
-    validate(row[1] > 0.0 && std::isfinite(row[1]),
-             "densities: material {} has density {} kg/m3 (mass must be positive) correct the row",
-             row[0], row[1]);
-    validate(tags.insert(row[0]).second,
-             "densities: material {} is given twice (which one holds?) remove one row", row[0]);
   }
   check(c.transfer);
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include "config/schema.hpp"
 #include "transfer/zone/depth.hpp"
+#include "transfer/zone/section_box.hpp"
 #include "transfer/zone/strength.hpp"
 #include "transfer/zone/transfer_time.hpp"
 
@@ -35,11 +36,6 @@ struct RuConfig {
   RuOverTime over_time = RuOverTime::maximum;
 };
 
-/// Part of the section that counts, in reference coordinates [m]; a side left out is open.
-struct ZoneBox {
-  std::optional<double> left, right, bottom, top;
-};
-
 struct ColumnConfig {
   std::optional<double> width;  ///< [m]; median width of the liquefiable elements if left out
   int neighbours = 1;           ///< liquefied mesh neighbours that a liquefied node needs to count
@@ -47,13 +43,12 @@ struct ColumnConfig {
 
 /// What decides the transfer time.
 struct TransferRuleConfig {
-  std::vector<int> liquefiable;  ///< material tags
+  std::vector<std::string> liquefiable;  ///< materials by name
   double pond_surface = kUnset;  ///< y of the pond surface, datum of depths [m]
-  ZoneBox box;
+  SectionBox box;
   DepthWindows windows;  ///< see windows_or_all
   DepthCoordinates depth_coordinates = DepthCoordinates::original;
   RuConfig r_u;
-  std::vector<std::vector<double>> densities;  ///< rows [material tag, kg/m3]
   std::vector<int> base_nodes;                 ///< node tags; the lowest nodes if empty
   TransferTimeConfig transfer;
 };

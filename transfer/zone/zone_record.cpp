@@ -11,7 +11,7 @@
 namespace flowslide {
 namespace {
 
-bool inside(const ZoneBox& box, Vec2 p, double tolerance) {
+bool inside(const SectionBox& box, Vec2 p, double tolerance) {
   return p[0] >= box.left.value_or(p[0]) - tolerance &&
          p[0] <= box.right.value_or(p[0]) + tolerance &&
          p[1] >= box.bottom.value_or(p[1]) - tolerance &&
@@ -30,14 +30,25 @@ std::vector<std::int32_t> tagged_nodes(const QuadMesh& mesh, const std::vector<i
   return nodes;
 }
 
-ZoneParts divide(const QuadMesh& mesh, const TransferRuleConfig& config) {
-  for (const int tag : config.liquefiable) {
+std::vector<std::int32_t> liquefiable_tags(const QuadMesh& mesh,
+                                           const std::vector<HistoryMaterial>& materials,
+                                           const TransferRuleConfig& config) {
+  std::vector<std::int32_t> tags;
+  for (const std::string& name : config.liquefiable) {
+    const std::int32_t tag = find_material(materials, name, "liquefiable").tag;
     validate(
         std::ranges::find(mesh.element_material, tag) != mesh.element_material.end(),
-        "liquefiable: no element has material {} (nothing of it can liquefy) check the tags of "
-        "the mesh",
-        tag);
+        "liquefiable: no element is of the material '{}' (nothing of it can liquefy) check the "
+        "mesh",
+        name);
+    tags.push_back(tag);
   }
+  return tags;
+}
+
+ZoneParts divide(const QuadMesh& mesh, const std::vector<HistoryMaterial>& materials,
+                 const TransferRuleConfig& config) {
+  const std::vector<std::int32_t> liquefiable = liquefiable_tags(mesh, materials, config);
   ZoneParts parts;
   parts.in_soil.resize(mesh.num_elements());
   for (std::size_t e = 0; e < mesh.num_elements(); ++e) {
@@ -47,10 +58,7 @@ ZoneParts divide(const QuadMesh& mesh, const TransferRuleConfig& config) {
     const auto counts = [&config, tolerance](Vec2 p) { return inside(config.box, p, tolerance); };
     if (!std::ranges::all_of(quad, counts)) continue;
     parts.section.push_back(static_cast<std::int32_t>(e));
-    if (std::ranges::find(config.liquefiable, mesh.element_material[e]) ==
-        config.liquefiable.end()) {
-      continue;
-    }
+    if (std::ranges::find(liquefiable, mesh.element_material[e]) == liquefiable.end()) continue;
     parts.soil.push_back(static_cast<std::int32_t>(e));
     parts.in_soil[e] = 1;
   }
@@ -76,26 +84,21 @@ void check_windows(const QuadMesh& mesh, const ZoneParts& parts, const DepthWind
   }
 }
 
-std::map<std::int32_t, double> density_of_material(const TransferRuleConfig& config) {
-  std::map<std::int32_t, double> density;
-  for (const std::vector<double>& row : config.densities) {
-    density[static_cast<std::int32_t>(row[0])] = row[1];
-  }
-  return density;
-}
-
 }  // namespace
 
-ZoneParts zone_parts(const QuadMesh& mesh, const TransferRuleConfig& config, bool shaken) {
-  ZoneParts parts = divide(mesh, config);
+ZoneParts zone_parts(const QuadMesh& mesh, const std::vector<HistoryMaterial>& materials,
+                     const TransferRuleConfig& config) {
+  ZoneParts parts = divide(mesh, materials, config);
   check_windows(mesh, parts, config.windows);
-  if (shaken) (void)element_masses(mesh, parts.section, density_of_material(config));
   return parts;
 }
 
-ZoneRecorder::ZoneRecorder(const QuadMesh& mesh, const FemFrame& gravity,
-                           const TransferRuleConfig& config)
-    : mesh_(mesh), config_(config), parts_(zone_parts(mesh, config)) {
+ZoneRecorder::ZoneRecorder(const QuadMesh& mesh, const std::vector<HistoryMaterial>& materials,
+                           const FemFrame& gravity, const TransferRuleConfig& config)
+    : mesh_(mesh),
+      config_(config),
+      parts_(zone_parts(mesh, materials, config)),
+      mass_(element_masses(mesh, parts_.section, element_densities(mesh, materials))) {
   config_.windows = windows_or_all(config);
   reference_ = r_u_reference(mesh_, gravity, parts_.in_soil, config_.r_u);
   for (const auto& [name, window] : config_.windows) history_.window_names.push_back(name);
@@ -122,7 +125,6 @@ void ZoneRecorder::check_finite(const FemFrame& frame) const {
 }
 
 void ZoneRecorder::append(const FemFrame& frame) {
-  if (mass_.empty()) mass_ = element_masses(mesh_, parts_.section, density_of_material(config_));
   check_finite(frame);
   std::vector<Vec2> positions = mesh_.nodes;
   for (std::size_t n = 0; n < positions.size(); ++n) {

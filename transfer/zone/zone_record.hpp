@@ -18,18 +18,18 @@ struct ZoneParts {
   std::vector<std::int32_t> base_nodes;
 };
 
-/// Throws InputError for settings that do not fit the mesh: tags, box, windows, base nodes and, if
-/// there is shaking, materials without a density.
-ZoneParts zone_parts(const QuadMesh& mesh, const TransferRuleConfig& config, bool shaken = false);
+/// Throws InputError for settings that do not fit the section: names, box, windows, base nodes.
+ZoneParts zone_parts(const QuadMesh& mesh, const std::vector<HistoryMaterial>& materials,
+                     const TransferRuleConfig& config);
 
 /// Makes the scalars of ZoneHistory from frames as they come, so that the rule of the transfer time
 /// can be asked while a record grows (docs/theory/liquefaction-zone.md).
 class ZoneRecorder {
  public:
-  /// Throws InputError: settings that do not fit the mesh, a gravity state with unset numbers.
-  ZoneRecorder(const QuadMesh& mesh, const FemFrame& gravity, const TransferRuleConfig& config);
-  /// The next frame. Throws InputError for state that is not finite where it is needed, and for a
-  /// material without a density.
+  /// Throws InputError: settings that do not fit the section, a gravity state with unset numbers.
+  ZoneRecorder(const QuadMesh& mesh, const std::vector<HistoryMaterial>& materials,
+               const FemFrame& gravity, const TransferRuleConfig& config);
+  /// The next frame. Throws InputError for state that is not finite where it is needed.
   void append(const FemFrame& frame);
 
   [[nodiscard]] const ZoneParts& parts() const { return parts_; }

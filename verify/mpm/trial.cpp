@@ -21,7 +21,6 @@ MaterialSpec elastic(double youngs_modulus, double poisson_ratio) {
 FlowConfig free_space(double cell) {
   FlowConfig c;
   c.cell = cell;
-  c.toe = 0.0;
   c.end = 1.0;
   c.gravity = 0.0;
   c.ground.surface = {{0.0, -1e6}};
@@ -31,7 +30,7 @@ FlowConfig free_space(double cell) {
 Trial::Trial(const ParticleSet& particles, const FlowConfig& config)
     : sim(make_simulation(particles, config)) {
   rebin();
-  reference = {sum_points(sim), config.toe};
+  reference = {sum_points(sim), is_set(particles.toe) ? particles.toe : 0.0};
 }
 
 void Trial::rebin() { prepare(sim, scratch, true); }

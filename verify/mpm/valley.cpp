@@ -23,7 +23,7 @@ Slide slide(const DamScene& scene, double end) {
   Simulation<Dim> s = make_simulation<Dim>(particles, config);
   StepScratch<Dim> scratch(1);
   prepare(s, scratch, true);
-  const Reference<Dim> start{sum_points(s), config.toe};
+  const Reference<Dim> start{sum_points(s), 0.0};
   const auto centre = [&] {
     double moment = 0.0, mass = 0.0;
     for (std::size_t q = 0; q < s.points.size(); ++q) {

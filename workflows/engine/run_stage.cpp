@@ -2,6 +2,7 @@
 
 #include "core/check.hpp"
 #include "core/files.hpp"
+#include "workflows/engine/headlines.hpp"
 #include "workflows/engine/program_version.hpp"
 #include "workflows/engine/result_folder.hpp"
 #include "workflows/engine/session.hpp"
@@ -135,19 +136,20 @@ StageState run_stage(const WorkflowStage& stage, const Decision& decision,
   };
   const StageResult result = call(stage, context, inputs, paths, watch);
 
-  StageRecord record{.stage = stage.name,
-                     .uses = stage.type.name,
-                     .version = stage.type.version,
-                     .key = decision.key,
-                     .settings = stage.prepared.settings,
-                     .inputs = inputs.hashes,
-                     .outputs = {},
-                     .files = {},
-                     .publish = result.publish,
-                     .give = result.give,
-                     .facts = add_warnings(result.facts, result.warnings),
-                     .program = program_version(),
-                     .seconds = watch.seconds()};
+  StageRecord record{
+      .stage = stage.name,
+      .uses = stage.type.name,
+      .version = stage.type.version,
+      .key = decision.key,
+      .settings = stage.prepared.settings,
+      .inputs = inputs.hashes,
+      .outputs = {},
+      .files = {},
+      .publish = result.publish,
+      .give = result.give,
+      .facts = add_headlines(add_warnings(result.facts, result.warnings), result.headlines),
+      .program = program_version(),
+      .seconds = watch.seconds()};
   for (const Port& port : stage.type.outputs) expect_output(stage, port, work);
   clean(work);
   sync_tree(work);

@@ -32,7 +32,7 @@ std::vector<std::string> zone_warnings(const LiquefactionZone& zone, const ZoneC
 struct ZoneStage {
   static constexpr std::string_view name = "transfer.zone";
   static constexpr std::string_view doc = "Finds the liquefied zone and the time of transfer.";
-  static constexpr int version = 2;
+  static constexpr int version = 3;
   static constexpr bool checkpoints = false;
   using Config = ZoneConfig;
   struct Inputs {
@@ -55,8 +55,9 @@ struct ZoneStage {
           "earlier time or a later `end` of fem.run",
           *config.transfer.at, *p.end));
     if (!p.section) return p;
-    check_pond(config, p.section->mesh, found);
-    (void)zone_parts(p.section->mesh, config, p.shakes);
+    if (p.materials.empty()) return p;
+    (void)zone_parts(p.section->mesh, p.materials, config);
+    check_pond(config, p.section->mesh, p.materials, found);
     return p;
   }
   static StageResult run(const RunContext& context, const Config& config, const Inputs& in,
@@ -65,10 +66,16 @@ struct ZoneStage {
     write_zone(out.zone.path, zone);
     nlohmann::ordered_json facts = {{"transfer_time_s", zone.transfer_time},
                                     {"transfer_reason", zone.transfer_reason}};
-    for (std::size_t i = 0; i < zone.window_names.size(); ++i)
-      facts["liquefaction_depth_" + zone.window_names[i] + "_m"] = zone.window_depth_max[i];
+    StageResult result{.facts = {}, .publish = {}, .warnings = zone_warnings(zone, config)};
+    for (std::size_t i = 0; i < zone.window_names.size(); ++i) {
+      const std::string name = "liquefaction_depth_" + zone.window_names[i] + "_m";
+      facts[name] = zone.window_depth_max[i];
+      result.headlines.push_back({name, "liquefaction depth, " + zone.window_names[i], "m"});
+    }
+    result.headlines.push_back({"transfer_time_s", "transfer at", "s"});
     facts["zone_notes"] = zone.notes;
-    return {.facts = facts.dump(), .publish = {}, .warnings = zone_warnings(zone, config)};
+    result.facts = facts.dump();
+    return result;
   }
 };
 
