@@ -63,7 +63,7 @@ Elasticity PM4Sand::gravity_elasticity(const Params& p, double poisson_ratio) {
 PM4Sand::State PM4Sand::initial_state(const Constants& c, const Stress<2>& sigma,
                                       double volumetric_strain) noexcept {
   using namespace pm4sand;
-  State s;
+  PM4Sand::State s;
   double p = -0.5 * (sigma[0] + sigma[1]);
   Deviator dev{-0.5 * (sigma[0] - sigma[1]), -sigma[3]};
   s.p_min = std::max(p, c.P_atm) / 200.0;

@@ -63,8 +63,23 @@ void yield_hourglass(Solver& s, std::size_t e) {
 
 void update_stresses(Solver& s, std::int32_t begin, std::int32_t end, Solver::ChunkSums& sums) {
   each_law(s.layout, begin, end, [&]<class M>(std::size_t first, std::size_t last) {
+    if constexpr (requires { typename M::Task; }) {
+      typename M::Work work;
+      std::size_t e = first;
+      M::update_all([&](typename M::Task& task) {
+        if (e == last) return false;
+        const double* d = &s.strain[3 * e];
+        task = {&constants_of<M>(s, s.layout.material[e]), &state_of<M>(s, e), &s.state.stress[e],
+                {{d[0], d[1], 0.0, d[2]}}, &work};
+        ++e;
+        return true;
+      });
+      sums.counters.sub_steps += work.sub_steps;
+      sums.counters.rejected += work.rejected;
+      sums.counters.floored += work.floored;
+    }
     for (std::size_t e = first; e < last; ++e) {
-      update_stress<M>(s, e, sums.counters);
+      if constexpr (!requires { typename M::Task; }) update_stress<M>(s, e, sums.counters);
       if (!s.hourglass_strength.empty()) yield_hourglass(s, e);
       const Stress<2>& stress = s.state.stress[e];
       if (!std::isfinite(stress[0] + stress[1] + stress[3]) && sums.failed < 0)
