@@ -46,13 +46,21 @@ struct StateOf {
   bool operator==(const StateOf&) const = default;
 };
 
-/// What the rate equations know of a soil.
+/// What the rate equations know of a soil; inverses and products so that they need not divide.
 template <class T>
 struct SoilOf {
-  T G0, hpo, P_atm, h0, emax, emin, initial_void_ratio, nb, nd, cz, ce, M, Cgd, Cdr, Ckaf, Q, R, m,
-      Fsed_min, p_sedo;
-  T bulk_ratio;  ///< K/G
-  T max_strain_increment, tolerance;
+  T G_unit;              ///< G_0 sqrt(P_atm): G at 1 Pa before all factors [Pa]
+  T bulk_ratio;          ///< K/G
+  T pressure_ratio;      ///< (K + G/3)/G
+  T Cgd;                 ///< as all that follow, the parameter of this name
+  T depth, R;            ///< Q - ln(100 Pa/P_atm)
+  T nb, nd, M, m;
+  T h0, C_g1, Ckaf;      ///< C_g1 = h0/200
+  T inverse_hpo, ce2, inverse_Cdr, cz;
+  T emax, density_rate;  ///< D_R = density_rate (emax - e)
+  T void_rate;           ///< de = -void_rate deps_v, 1 + e_init
+  T P_atm, Fsed_min, p_sedo;
+  T tolerance;
   /// 1: softer elasticity while the soil settles after shaking; the caller sets it then.
   T post_shake = 0.0;
 };
@@ -104,7 +112,7 @@ struct PM4Sand {
 
   /// Numbers derived once from the parameters.
   struct Constants : pm4sand::SoilOf<double> {
-    double Dr;
+    double Dr, initial_void_ratio, max_strain_increment;
     std::optional<double> Ado, z_max;
   };
 
@@ -150,11 +158,10 @@ struct PM4Sand {
     State* state;
     Stress<2>* stress;
     StrainIncrement<2> increment;
-    Work* work;  ///< what it took is added here
   };
   /// `update` of every point that `next` names, until it returns false: the same bits, in any
   /// order, many points at a time. A point that is done makes room for the next one.
-  static void update_all(const std::function<bool(Task&)>& next) noexcept;
+  static Work update_all(const std::function<bool(Task&)>& next) noexcept;
 };
 static_assert(std::is_trivially_copyable_v<PM4Sand::State> &&
               sizeof(PM4Sand::State) == sizeof(double) * PM4Sand::state_names.size());

@@ -8,15 +8,15 @@ PM4Sand::Update PM4Sand::update(const Constants& c, const State& old, const Stre
   r.stress = sigma;
   r.state = old;
   bool waiting = true;
-  pm4sand::integrate<double>([&](Task& task) {
-    task = {&c, &r.state, &r.stress, de, &r};
+  static_cast<Work&>(r) = pm4sand::integrate<double>([&](Task& task) {
+    task = {&c, &r.state, &r.stress, de};
     return std::exchange(waiting, false);
   });
   return r;
 }
 
-void PM4Sand::update_all(const std::function<bool(Task&)>& next) noexcept {
-  pm4sand::integrate<Pack>(next);
+PM4Sand::Work PM4Sand::update_all(const std::function<bool(Task&)>& next) noexcept {
+  return pm4sand::integrate<Pack>(next);
 }
 
 }  // namespace flowslide
