@@ -46,23 +46,25 @@ struct StateOf {
   bool operator==(const StateOf&) const = default;
 };
 
-/// What the rate equations know of a soil; inverses and products so that they need not divide.
+/// What the rate equations know of a soil, with inverses and products so that they need not divide.
+/// Members without a comment are the parameters of their names.
 template <class T>
 struct SoilOf {
-  T G_unit;              ///< G_0 sqrt(P_atm): G at 1 Pa before all factors [Pa]
-  T bulk_ratio;          ///< K/G
-  T pressure_ratio;      ///< (K + G/3)/G
-  T Cgd;                 ///< as all that follow, the parameter of this name
-  T depth, R;            ///< Q - ln(100 Pa/P_atm)
-  T nb, nd, M, m;
-  T h0, C_g1, Ckaf;      ///< C_g1 = h0/200
-  T inverse_hpo, ce2, inverse_Cdr, cz;
-  T emax, density_rate;  ///< D_R = density_rate (emax - e)
-  T void_rate;           ///< de = -void_rate deps_v, 1 + e_init
-  T P_atm, Fsed_min, p_sedo;
-  T tolerance;
-  /// 1: softer elasticity while the soil settles after shaking; the caller sets it then.
-  T post_shake = 0.0;
+  T G_unit;          ///< G_0 sqrt(P_atm): G at 1 Pa, before the other factors [Pa^(1/2)]
+  T bulk_ratio;      ///< K/G
+  T pressure_ratio;  ///< (K + G/3)/G
+  T Cgd;
+  T depth;  ///< Q - ln(100 Pa/P_atm)
+  T R, nb, nd, M, m, h0;
+  T C_g1;  ///< h_0/200
+  T Ckaf;
+  T inverse_hpo, inverse_Cdr;
+  T ce2;  ///< c_e^2
+  T cz, emax;
+  T density_rate;  ///< D_R = density_rate (emax - e)
+  T void_rate;     ///< de = -void_rate deps_v, 1 + e_init
+  T P_atm, Fsed_min, p_sedo, tolerance;
+  T post_shake = 0.0;  ///< 1: softer elasticity while the soil settles; the caller sets it then
 };
 
 }  // namespace pm4sand
@@ -97,8 +99,8 @@ struct PM4Sand {
     double m = 0.01;                     ///< size of the yield surface
     std::optional<double> Fsed_min;      ///< unset: min(0.99, 0.03 exp(2.6 Dr))
     std::optional<double> p_sedo;        ///< [Pa]; unset: P_atm/5
-    double max_strain_increment = 1e-5;  ///< largest strain component of a sub-step
-    double tolerance = 1e-5;             ///< allowed stress error of a sub-step, relative
+    double max_strain_increment = 1e-4;  ///< largest strain component of a sub-step
+    double tolerance = 1e-4;             ///< allowed stress error of a sub-step, relative
   };
 
   using Deviator = pm4sand::DeviatorOf<double>;

@@ -7,8 +7,8 @@
 #include <immintrin.h>
 #endif
 
-/// Doubles that go through the same arithmetic, as many as one register of the target holds, on
-/// GCC's and Clang's vector extension. Formulas written as templates over a number type T run on
+/// Doubles that go through the same arithmetic, `Pack` as many as one register of the target holds,
+/// on GCC's and Clang's vector extension. Formulas written as templates over a number type T run on
 /// double and on Pack; `select` takes the place of branches.
 namespace flowslide {
 
@@ -20,20 +20,28 @@ inline constexpr int kPackLanes = 4;
 inline constexpr int kPackLanes = 2;
 #endif
 
-/// Vectors of N numbers: g++ takes no size that hangs on a template parameter for granted.
+/// Vectors of N doubles, and of whole numbers of their size. One by one, since g++ forgets a size
+/// that hangs on a template parameter.
 template <int N>
 struct VectorOf;
-#define FLOWSLIDE_VECTOR_OF(N)                                                  \
-  template <>                                                                   \
-  struct VectorOf<N> {                                                          \
-    using Real = double __attribute__((vector_size(8 * (N))));                  \
-    using Whole = std::int64_t __attribute__((vector_size(8 * (N))));           \
-    using Bits = std::uint64_t __attribute__((vector_size(8 * (N))));           \
-  };
-FLOWSLIDE_VECTOR_OF(2)
-FLOWSLIDE_VECTOR_OF(4)
-FLOWSLIDE_VECTOR_OF(8)
-#undef FLOWSLIDE_VECTOR_OF
+template <>
+struct VectorOf<2> {
+  using Real = double __attribute__((vector_size(16)));
+  using Whole = std::int64_t __attribute__((vector_size(16)));
+  using Bits = std::uint64_t __attribute__((vector_size(16)));
+};
+template <>
+struct VectorOf<4> {
+  using Real = double __attribute__((vector_size(32)));
+  using Whole = std::int64_t __attribute__((vector_size(32)));
+  using Bits = std::uint64_t __attribute__((vector_size(32)));
+};
+template <>
+struct VectorOf<8> {
+  using Real = double __attribute__((vector_size(64)));
+  using Whole = std::int64_t __attribute__((vector_size(64)));
+  using Bits = std::uint64_t __attribute__((vector_size(64)));
+};
 
 template <int N>
 struct PackOf;
