@@ -6,6 +6,10 @@
 namespace flowslide {
 namespace {
 
+// Strain increments and tolerance that are left out; docs/theory/pm4sand.md, "Tolerance". Mixed
+// steps of a single point are solved to 1e-5 of its stress.
+constexpr double kPointPrecision = 1e-5, kMeshPrecision = 1e-4;
+
 /// OpenSees' interpolation, which follows the authors' FLAC code rather than their manual.
 double default_ce(double Dr) { return std::clamp(0.5 - 1.5 * (Dr - 0.55), 0.2, 0.5); }
 
@@ -51,8 +55,15 @@ PM4Sand::Constants PM4Sand::constants(const Params& p) {
   c.Dr = p.Dr;
   c.Ado = p.Ado;
   c.z_max = p.z_max;
-  c.max_strain_increment = p.max_strain_increment;
-  c.tolerance = p.tolerance;
+  c.max_strain_increment = p.max_strain_increment.value_or(kPointPrecision);
+  c.tolerance = p.tolerance.value_or(kPointPrecision);
+  return c;
+}
+
+PM4Sand::Constants PM4Sand::mesh_constants(const Params& p) {
+  Constants c = constants(p);
+  c.max_strain_increment = p.max_strain_increment.value_or(kMeshPrecision);
+  c.tolerance = p.tolerance.value_or(kMeshPrecision);
   return c;
 }
 
@@ -145,9 +156,11 @@ void Schema<PM4Sand::Params>::describe(FieldVisitor& v, PM4Sand::Params& p) {
   v.quantity("p_sedo", p.p_sedo, Dim::stress, positive,
              "mean stress up to which the modulus is lowered after shaking; left out: P_atm/5");
   v.quantity("max_strain_increment", p.max_strain_increment, Dim::none, {.min = 1e-8, .max = 1.0},
-             "largest strain component of a sub-step");
+             "largest strain component of a sub-step; left out: 1e-4 in a mesh, 1e-5 for a single "
+             "point");
   v.quantity("tolerance", p.tolerance, Dim::none, {.max = 1.0, .above = 0.0},
-             "stress error of a sub-step relative to the stress; larger errors halve the sub-step");
+             "stress error of a sub-step relative to the stress, which larger errors divide; left "
+             "out: as max_strain_increment");
 }
 
 }  // namespace flowslide
