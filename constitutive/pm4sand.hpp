@@ -99,8 +99,8 @@ struct PM4Sand {
     double m = 0.01;                     ///< size of the yield surface
     std::optional<double> Fsed_min;      ///< unset: min(0.99, 0.03 exp(2.6 Dr))
     std::optional<double> p_sedo;        ///< [Pa]; unset: P_atm/5
-    /// Largest strain component of a sub-step, and its allowed relative stress error. Unset: 1e-5 for
-    /// a point by itself, 1e-4 in a mesh.
+    /// Largest strain component of a sub-step, and its allowed relative stress error. Unset: 1e-5
+    /// for a point by itself, 1e-4 in a mesh.
     std::optional<double> max_strain_increment, tolerance;
   };
 

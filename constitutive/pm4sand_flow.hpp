@@ -139,20 +139,19 @@ History<T> history(const SoilOf<T>& c, const StateOf<T>& s) {
   const T C_zpk2 = min(shares * above1, T(1.0 - 1e-10)), C_rot2 = 1.0 - C_zpk2;
   h.root_zpk2 = sqrt(C_rot2);
   const T most = 1.0 + 0.5 * s.z_max, kept = (1.0 - C_rot2 * kRoot2 * h.peak_ratio) * s.z_max;
-  h.inverse_C_dz =
-      select(kept > T(0.0), min((s.z_max + C_rot2 * s.z_cum) / kept, most), most);
+  h.inverse_C_dz = select(kept > T(0.0), min((s.z_max + C_rot2 * s.z_cum) / kept, most), most);
   h.fabric_rate = c.cz / (1.0 + positive(0.5 * s.z_cum * h.inverse_z_max - 1.0));
   return h;
 }
 
 template <class T>
 struct Flow {
-  DeviatorOf<T> n;                       ///< unit loading direction
-  T D;                                   ///< dilatancy, contraction positive
-  T Kp;                                  ///< plastic modulus [Pa]
-  T b_n;                                 ///< (alpha_b - alpha) : n, way to the image on the bounding surface
-  DeviatorOf<T> b_side;                  ///< the part of alpha_b - alpha across n
-  T pull;                                ///< d alpha = L pull (b_n n + b_side)
+  DeviatorOf<T> n;       ///< unit loading direction
+  T D;                   ///< dilatancy, contraction positive
+  T Kp;                  ///< plastic modulus [Pa]
+  T b_n;                 ///< (alpha_b - alpha) : n, way to the image on the bounding surface
+  DeviatorOf<T> b_side;  ///< the part of alpha_b - alpha across n
+  T pull;                ///< d alpha = L pull (b_n n + b_side)
   decltype(T() < T()) beyond_dilatancy;  ///< (alpha_d - alpha) : n < 0, where fabric grows
 };
 
@@ -180,12 +179,11 @@ T dilation(const SoilOf<T>& c, const StateOf<T>& s, const History<T>& h, const L
   const T F = s.z_cum * s.z_cum * h.inverse_z_max * (free * free * free) * c.ce2 * w.C_zin1;
   const T A_d = s.A_do * (1.0 + turned) * K / ((1.0 + 3.0 * turned) * (F + K));
   T D = A_d * w.to_dilatancy;
-  const T D_rot =
-      A_d * w.minus_z_n * (kRootHalf * h.inverse_z_max * c.inverse_Cdr) * w.to_rotated;
+  const T D_rot = A_d * w.minus_z_n * (kRootHalf * h.inverse_z_max * c.inverse_Cdr) * w.to_rotated;
   const T below_bounding = positive(l.surfaces.Mb * (1.0 - sqrt(l.squared_ratio)));
   D = select(D > D_rot, D + (D_rot - D) * below_bounding / (below_bounding + 0.01), D);
-  const T least = -3.5 * s.A_do * positive(l.surfaces.Mb - l.surfaces.Md) *
-                  (2.0 * s.p_min - l.p) * h.inverse_p_min;
+  const T least = -3.5 * s.A_do * positive(l.surfaces.Mb - l.surfaces.Md) * (2.0 * s.p_min - l.p) *
+                  h.inverse_p_min;
   return select(l.p <= 2.0 * s.p_min, min(D, least), D);
 }
 

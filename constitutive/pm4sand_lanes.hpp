@@ -70,8 +70,8 @@ template <class T>
   const StrainOf<T> step{part * r.whole.volumetric, part * r.whole.deviator};
   Trial<T> trial = attempt(soil, r.state, r.at, step, part <= r.smallest);
   const T allowed = soil.tolerance * trial.size;
-  const T change = select(trial.error > T(0.0), clamp(0.8 * sqrt(allowed / trial.error), 0.1, 2.0),
-                          T(2.0));
+  const T change =
+      select(trial.error > T(0.0), clamp(0.8 * sqrt(allowed / trial.error), 0.1, 2.0), T(2.0));
   const auto taken = !(trial.error > allowed && part > r.smallest);
   const auto low = settle(soil, r.state, trial);
   StateOf<T>& s = r.state;

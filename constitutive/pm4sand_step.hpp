@@ -157,11 +157,10 @@ Trial<T> attempt(const SoilOf<T>& c, StateOf<T>& s, const PointOf<T>& at, const 
     from.p += a * elastic.p;
     from.s = from.s + a * elastic.s;
     // G follows sqrt(p): what an elastic step with the modulus of its start misses
-    elastic_error =
-        a * a * abs(elastic.p) * stress_norm(elastic.p, elastic.s) / (2.0 * start.p);
+    elastic_error = a * a * abs(elastic.p) * stress_norm(elastic.p, elastic.s) / (2.0 * start.p);
   }
-  Trial<T> r{from, select(from.p > T(0.0) || forced, elastic_error, size), size,
-             start.surfaces.Mb, {}};
+  Trial<T> r{
+      from, select(from.p > T(0.0) || forced, elastic_error, size), size, start.surfaces.Mb, {}};
   if (all(stays)) return r;
 
   const StrainOf<T> rest{(1.0 - a) * step.volumetric, (1.0 - a) * step.deviator};
@@ -200,8 +199,8 @@ auto settle(const SoilOf<T>& c, const StateOf<T>& s, Trial<T>& trial) {
   const auto drifts = length2 > radius2 || (trial.plastic && 4.0 * length2 > radius2);
   if (any(drifts)) {
     const T length = sqrt(length2);
-    end.alpha = select(drifts, (1.0 / (length * end.p)) * (length * end.s - radius * offset),
-                       end.alpha);
+    end.alpha =
+        select(drifts, (1.0 / (length * end.p)) * (length * end.s - radius * offset), end.alpha);
   }
   const T q = max(end.p, s.p_min) * trial.Mb, q2 = 2.0 * dot(end.s, end.s);
   const auto beyond = q2 > q * q;

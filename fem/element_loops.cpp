@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace flowslide::fem {
 
@@ -47,16 +48,17 @@ StrainIncrement<2> strain_of(const Solver& s, std::size_t e) {
 
 /// Elements of a law that integrates many points at a time.
 template <class M>
-  requires requires { typename M::Task; }
+requires requires { typename M::Task; }
 Counters update_law(Solver& s, std::atomic<std::int32_t>& taken, std::size_t last) {
   std::size_t e = 0, end = 0;
-  const auto work = M::update_all([&](typename M::Task& task) {
+  const auto next = [&](typename M::Task& task) {
     if (e == end && !take(taken, last, kPackLanes, e, end)) return false;
     task = {&constants_of<M>(s, s.layout.material[e]), &state_of<M>(s, e), &s.state.stress[e],
             strain_of(s, e)};
     ++e;
     return true;
-  });
+  };
+  const auto work = M::update_all(std::cref(next));  // a copy would be allocated
   return {work.sub_steps, work.rejected, work.floored};
 }
 

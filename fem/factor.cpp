@@ -184,8 +184,8 @@ void BandFactor::solve(double* b) {
         load(part, before + k);
         sum += row * part;
       }
-      y[r] = x[i + r] - (((sum[0] + sum[1]) + (sum[2] + sum[3])) +
-                         ((sum[4] + sum[5]) + (sum[6] + sum[7])));
+      y[r] = x[i + r] -
+             (((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7])));
     }
     combine(block(i) + kBlockSize, y.data(), x + i);
   }

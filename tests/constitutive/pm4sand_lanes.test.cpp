@@ -1,4 +1,5 @@
 #include "constitutive/pm4sand_lanes.hpp"
+
 #include "tests/constitutive/pm4sand_samples.hpp"
 
 #include <cstring>
