@@ -17,10 +17,9 @@ inline constexpr double kSmallestIncrement = 1e-9;
 /// Bounds the work of one call, whatever it is given.
 inline constexpr double kMaxSubSteps = 1e6;
 
-/// What integration knows of a point.
+/// Where integration stands with a point; alpha and z of its state are those of `at`.
 template <class T>
 struct CourseOf {
-  StateOf<T> state;  ///< alpha and z are those of `at`
   PointOf<T> at;
   StrainOf<T> whole;    ///< the increment
   T largest, smallest;  ///< sub-step, as shares of the increment
@@ -36,8 +35,7 @@ inline CourseOf<double> start(const PM4Sand::Task& task, double size) {
   const double largest = 1.0 / std::clamp(equal, 1.0, kMaxSubSteps);
   const double smallest =
       std::min(largest, std::max(kSmallestIncrement / size, 1.0 / kMaxSubSteps));
-  return {s,
-          {-0.5 * (sigma[0] + sigma[1]) - s.held_p,
+  return {{-0.5 * (sigma[0] + sigma[1]) - s.held_p,
            DeviatorOf<double>{-0.5 * (sigma[0] - sigma[1]), -sigma[3]} - s.held, s.alpha, s.z},
           {-(de[0] + de[1]), {-0.5 * (de[0] - de[1]), -0.5 * de[3]}},
           largest,
@@ -46,14 +44,14 @@ inline CourseOf<double> start(const PM4Sand::Task& task, double size) {
           largest};
 }
 
-/// Writes what `start` began.
-inline void finish(const PM4Sand::Task& task, const CourseOf<double>& r) {
-  const double p = r.at.p + r.state.held_p;
-  const DeviatorOf<double> s = r.at.s + r.state.held;
+/// The stress, and what else of the state, of a point that is done.
+inline void finish(const PM4Sand::Task& task, const PointOf<double>& at) {
+  PM4Sand::State& state = *task.state;
+  const double p = at.p + state.held_p;
+  const DeviatorOf<double> s = at.s + state.held;
   *task.stress = {{-(p + s.d), -(p - s.d), -p, -s.t}};
-  *task.state = r.state;
-  task.state->alpha = r.at.alpha;
-  task.state->z = r.at.z;
+  state.alpha = at.alpha;
+  state.z = at.z;
 }
 
 /// What a sub-step, or an attempt at it, came to.
@@ -63,18 +61,17 @@ struct Outcome {
 };
 
 template <class T>
-[[gnu::flatten]] auto go_on(const SoilOf<T>& soil, CourseOf<T>& r) {
+[[gnu::flatten]] auto go_on(const SoilOf<T>& soil, StateOf<T>& s, CourseOf<T>& r) {
   const T left = 1.0 - r.done;
   const auto last = r.next >= left * (1.0 - 1e-12);
   const T part = select(last, left, r.next);
   const StrainOf<T> step{part * r.whole.volumetric, part * r.whole.deviator};
-  Trial<T> trial = attempt(soil, r.state, r.at, step, part <= r.smallest);
+  Trial<T> trial = attempt(soil, s, r.at, step, part <= r.smallest);
   const T allowed = soil.tolerance * trial.size;
   const T change =
       select(trial.error > T(0.0), clamp(0.8 * sqrt(allowed / trial.error), 0.1, 2.0), T(2.0));
   const auto taken = !(trial.error > allowed && part > r.smallest);
-  const auto low = settle(soil, r.state, trial);
-  StateOf<T>& s = r.state;
+  const auto low = settle(soil, s, trial);
   s.void_ratio = select(taken, s.void_ratio - soil.void_rate * step.volumetric, s.void_ratio);
   const DeviatorOf<T> dz = trial.end.z - r.at.z;
   const T grown2 = dot(dz, dz);
@@ -90,17 +87,15 @@ template <class T>
   return Outcome<decltype(last)>{taken, taken && low, r.done >= T(1.0)};
 }
 
-/// Lane `lane` of a struct of T as the same struct of double, and the way back.
+/// Lane `lane` of a struct of T, a struct of double, to and fro.
 template <template <class> class Struct, class T>
-[[gnu::always_inline]] inline Struct<double> lane_of(const Struct<T>& from, int lane) {
+[[gnu::always_inline]] inline void get_lane(Struct<double>& to, const Struct<T>& from, int lane) {
   constexpr std::size_t size = sizeof(double), n = sizeof(Struct<double>) / size;
   static_assert(sizeof from == kLanes<T> * sizeof(Struct<double>));
-  Struct<double> r;
   unroll<n>([&](auto k) {
-    std::memcpy(reinterpret_cast<char*>(&r) + size * k,
+    std::memcpy(reinterpret_cast<char*>(&to) + size * k,
                 reinterpret_cast<const char*>(&from) + size * (kLanes<T> * k + lane), size);
   });
-  return r;
 }
 template <template <class> class Struct, class T>
 [[gnu::always_inline]] inline void set_lane(Struct<T>& to, int lane, const Struct<double>& from) {
@@ -133,6 +128,7 @@ PM4Sand::Work integrate(Next&& next) {
   constexpr int lanes = kLanes<T>;
   constexpr unsigned every = (1u << lanes) - 1u;
   SoilOf<T> soil;
+  StateOf<T> state;
   CourseOf<T> course;
   std::array<PM4Sand::Task, lanes> tasks;
   std::array<const PM4Sand::Constants*, lanes> soil_of{};
@@ -148,6 +144,7 @@ PM4Sand::Work integrate(Next&& next) {
       const CourseOf<double> fresh = start(tasks[lane], size);
       // the first one fills all lanes, so that none holds what is not a number
       for (int i = lane; i < (busy == 0 ? lanes : lane + 1); ++i) {
+        set_lane(state, i, *tasks[lane].state);
         set_lane(course, i, fresh);
         if (soil_of[i] == tasks[lane].constants) continue;
         soil_of[i] = tasks[lane].constants;
@@ -156,14 +153,17 @@ PM4Sand::Work integrate(Next&& next) {
       busy |= 1u << lane;
     }
     if (busy == 0) return work;
-    const auto outcome = go_on(soil, course);
+    const auto outcome = go_on(soil, state, course);
     const unsigned taken = bits(outcome.taken) & busy;
     work.sub_steps += std::popcount(taken);
     work.rejected += std::popcount(busy & ~taken);
     work.floored += std::popcount(bits(outcome.floored) & busy);
     for (unsigned done = bits(outcome.done) & busy; done != 0; done &= done - 1) {
       const int lane = std::countr_zero(done);
-      finish(tasks[lane], lane_of(course, lane));
+      PointOf<double> at;
+      get_lane(at, course.at, lane);
+      get_lane(*tasks[lane].state, state, lane);
+      finish(tasks[lane], at);
     }
     busy &= ~bits(outcome.done);
   }
