@@ -52,8 +52,8 @@ Stress<2> after_cycles(PM4Sand::Params p, double amplitude, int cycles, double i
 TEST_CASE("PM4Sand's defaults are those of OpenSees", "[pm4sand]") {
   const auto c = PM4Sand::constants(pm4sand_default(0.55, 677.0, 0.40));
   CHECK(c.h0 == Approx(0.4));
-  CHECK(c.ce == Approx(0.5));
-  CHECK(c.Cdr == Approx(10.0));
+  CHECK(c.ce2 == Approx(0.25));
+  CHECK(c.inverse_Cdr == Approx(0.1));
   CHECK(c.Ckaf == Approx(5.0 + 220.0 * 0.29 * 0.29 * 0.29));
   CHECK(c.Fsed_min == Approx(0.03 * std::exp(1.43)));
   CHECK(c.p_sedo == Approx(20.26e3));
@@ -66,6 +66,15 @@ TEST_CASE("PM4Sand's defaults are those of OpenSees", "[pm4sand]") {
   const double Mb = M * std::exp(-0.5 * xi), Md = M * std::exp(0.1 * xi);
   CHECK(s.A_do == Approx(2.5 * (std::asin(0.5 * Mb) - std::asin(0.5 * M)) / (Mb - Md)));
   CHECK(s.p_min == Approx(kAtmosphere / 200.0));
+}
+
+TEST_CASE("PM4Sand takes coarser sub-steps in a mesh unless they are given", "[pm4sand]") {
+  auto p = pm4sand_tailings();
+  CHECK(PM4Sand::constants(p).tolerance == 1e-5);
+  CHECK(PM4Sand::mesh_constants(p).tolerance == 1e-4);
+  CHECK(PM4Sand::mesh_constants(p).max_strain_increment == 1e-4);
+  p.tolerance = 1e-6;
+  CHECK(PM4Sand::mesh_constants(p).tolerance == 1e-6);
 }
 
 TEST_CASE("PM4Sand refuses a soil that cannot be", "[pm4sand]") {
@@ -164,7 +173,7 @@ TEST_CASE("PM4Sand keeps stress inside the bounding surface and p above its floo
     const double p = -0.5 * (t.stress[0] + t.stress[1]);
     REQUIRE(p >= 0.2 * t.state.p_min * (1.0 - 1e-9));
     // densest possible here: xi_R no less than -Dr
-    const double Dr = (t.c.emax - t.state.void_ratio) / (t.c.emax - t.c.emin);
+    const double Dr = (t.c.emax - t.state.void_ratio) * t.c.density_rate;
     REQUIRE(stress_ratio(t.stress, t.state.p_min) <= M * std::exp(0.5 * std::max(Dr, 0.0)) * 1.001);
     REQUIRE(t.state.z_peak <= t.state.z_max * (1.0 + 1e-9));
   }
