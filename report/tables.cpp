@@ -38,9 +38,9 @@ std::string runout_csv(const std::vector<MpmSample>& samples, double toe) {
   const std::vector<double> speed = front_speed(samples);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     for (const SampleColumn& c : kSampleColumns) {
-      // The toe of the report is a datum that may differ from that of the flow.
-      const bool moves = is_set(toe) && c.value == &MpmSample::runout;
-      const double value = moves ? std::max(0.0, samples[i].front - toe) : samples[i].*c.value;
+      const bool counts_anew = c.value == &MpmSample::runout && is_set(toe);
+      const double value =
+          counts_anew ? std::max(0.0, samples[i].front - toe) : samples[i].*c.value;
       out += fmt::format("{}{}", &c == kSampleColumns.data() ? "" : ",", value);
       if (ends_place(c)) out += fmt::format(",{}", speed[i]);
     }
