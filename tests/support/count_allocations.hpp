@@ -1,36 +1,49 @@
 #pragma once
 #include <atomic>
+#include <cerrno>
 #include <cstdlib>
-#include <new>
 
-/// Counts every allocation of the executable, whose one source that includes this replaces all forms
-/// of `new` that the library calls: a sanitizer takes one left out for memory of another kind.
-namespace {
-std::atomic<long> allocations{0};
+/// Counts requests for memory of a whole program, Eigen's and those of `new` among them. Defines
+/// malloc and its kin in terms of what the C library calls them by itself, so that exactly one file
+/// of a program may include it. The sanitizers have an allocator of their own: with them nothing is
+/// counted.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define FLOWSLIDE_COUNTS_ALLOCATIONS 1
+#else
+#define FLOWSLIDE_COUNTS_ALLOCATIONS 0
+#endif
 
-void* count_and_allocate(std::size_t size) noexcept {
-  ++allocations;
-  return std::malloc(size ? size : 1);
+namespace flowslide::test {
+inline std::atomic<long> allocations{0};
 }
-}  // namespace
 
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  if (void* p = count_and_allocate(size)) return p;
-  throw std::bad_alloc();
+#if FLOWSLIDE_COUNTS_ALLOCATIONS
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* p, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+
+void* malloc(std::size_t size) noexcept {
+  ++flowslide::test::allocations;
+  return __libc_malloc(size);
 }
-[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  return count_and_allocate(size);
+void* calloc(std::size_t count, std::size_t size) noexcept {
+  ++flowslide::test::allocations;
+  return __libc_calloc(count, size);
 }
-[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t align) {
-  ++allocations;
-  const auto a = static_cast<std::size_t>(align);
-  if (void* p = std::aligned_alloc(a, (size + a - 1) / a * a)) return p;
-  throw std::bad_alloc();
+void* realloc(void* p, std::size_t size) noexcept {
+  ++flowslide::test::allocations;
+  return __libc_realloc(p, size);
 }
-[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, const std::nothrow_t&) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
-  std::free(p);
+void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
+  ++flowslide::test::allocations;
+  return __libc_memalign(alignment, size);
 }
+int posix_memalign(void** p, std::size_t alignment, std::size_t size) noexcept {
+  ++flowslide::test::allocations;
+  *p = __libc_memalign(alignment, size);
+  return *p ? 0 : ENOMEM;
+}
+}
+#endif
