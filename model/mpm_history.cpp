@@ -15,7 +15,7 @@ namespace flowslide {
 namespace {
 
 constexpr std::string_view kKind = "mpm_history";
-constexpr int kFormat = 2;
+constexpr int kFormat = 3;
 
 /// The one list of the arrays of a frame: f(name, label, array).
 template <class Frame, class F>
@@ -40,7 +40,7 @@ struct Column {
   const char* unit;
   double MpmSample::*value;
 };
-constexpr std::array<Column, 22> kColumns{
+constexpr std::array<Column, 27> kColumns{
     {{"time", "s", &MpmSample::time},
      {"runout", "m", &MpmSample::runout},
      {"front", "m", &MpmSample::front},
@@ -62,7 +62,12 @@ constexpr std::array<Column, 22> kColumns{
      {"strain_energy_left", "J", &MpmSample::strain_energy_left},
      {"momentum_left_x", "N s", &MpmSample::momentum_left_x},
      {"momentum_left_y", "N s", &MpmSample::momentum_left_y},
-     {"load_work", "J", &MpmSample::load_work}}};
+     {"load_work", "J", &MpmSample::load_work},
+     {"front_equal_mass", "m", &MpmSample::front_equal_mass},
+     {"front_995", "m", &MpmSample::front_995},
+     {"front_99", "m", &MpmSample::front_99},
+     {"front_95", "m", &MpmSample::front_95},
+     {"height", "m", &MpmSample::height}}};
 static_assert(sizeof(MpmSample) == kColumns.size() * sizeof(double), "a column is missing");
 
 /// Doubles of one frame: time, 3 + 3 + 6 + 1 + 1 + 1 per particle.

@@ -48,6 +48,8 @@ struct MpmSample {
   double momentum_left_x = 0.0;     ///< momentum with which they left [N s]
   double momentum_left_y = 0.0;     ///< likewise, vertical [N s]
   double load_work = 0.0;           ///< work of tractions since the start [J]
+  /// Fronts by mass and the height (model/front.hpp) of the materials that count [m].
+  double front_equal_mass = 0.0, front_995 = 0.0, front_99 = 0.0, front_95 = 0.0, height = 0.0;
 };
 
 /// A MpmHistory of a run that may be killed and continued. While it is written, `path`.partial is a

@@ -29,7 +29,12 @@ constexpr std::array kAfterSpeed{SampleColumn{"max_speed_m_s", &MpmSample::max_s
                                  SampleColumn{"active_particles", &MpmSample::active_particles},
                                  SampleColumn{"points_left", &MpmSample::points_left},
                                  SampleColumn{"mass_left_kg_per_m", &MpmSample::mass_left},
-                                 SampleColumn{"kinetic_left_J_per_m", &MpmSample::kinetic_left}};
+                                 SampleColumn{"kinetic_left_J_per_m", &MpmSample::kinetic_left},
+                                 SampleColumn{"front_equal_mass_m", &MpmSample::front_equal_mass},
+                                 SampleColumn{"front_995_m", &MpmSample::front_995},
+                                 SampleColumn{"front_99_m", &MpmSample::front_99},
+                                 SampleColumn{"front_95_m", &MpmSample::front_95},
+                                 SampleColumn{"height_m", &MpmSample::height}};
 
 }  // namespace
 

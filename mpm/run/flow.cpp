@@ -132,7 +132,7 @@ FlowFacts run_in(const ParticleSet& particles, const FlowConfig& config, const F
 
   FlowFacts facts;
   MpmFrame frame;
-  std::vector<double> front_scratch;
+  std::vector<Place> front_scratch;
   const auto store = [&] {
     mpm::store_frame(s, frame);
     history.append(frame);

@@ -79,7 +79,7 @@ struct FlowConfig {
   std::optional<std::array<double, 2>> side_rollers;
   SofteningSettings softening;
   mpm::BasisKind basis = mpm::BasisKind::quadratic;
-  mpm::Transfer transfer = mpm::Transfer::apic;
+  mpm::Transfer transfer = mpm::Transfer::aflip;
   mpm::Update update = mpm::Update::symplectic;
   double relaxation = 0.3;  ///< of aflip [s]
   double flip_share = 0.99;

@@ -12,7 +12,7 @@ namespace {
 struct FlowStage {
   static constexpr std::string_view name = "mpm.run";
   static constexpr std::string_view doc = "The runout, with the material point method.";
-  static constexpr int version = 4;
+  static constexpr int version = 5;
   static constexpr bool checkpoints = true;
   using Config = FlowConfig;
   struct Inputs {
@@ -48,6 +48,11 @@ struct FlowStage {
     const double rate = f.step_seconds > 0.0 ? f.updates_this_call / f.step_seconds : 0.0;
     nlohmann::ordered_json facts = {{"runout_m", f.last.runout},
                                     {"front_m", f.last.front},
+                                    {"front_equal_mass_m", f.last.front_equal_mass},
+                                    {"front_995_m", f.last.front_995},
+                                    {"front_99_m", f.last.front_99},
+                                    {"front_95_m", f.last.front_95},
+                                    {"height_m", f.last.height},
                                     {"toe_m", config.toe},
                                     {"mass_error", f.last.mass_error},
                                     {"energy_error", f.last.energy_error},
