@@ -121,7 +121,7 @@ Deposit run(DryColumn c, int cells) {
   ParticleSet p = lattice<Dim>(c, height, 0.5 * cell);
   p.materials = {grains(c, height)};
   FlowConfig config = free_space(cell);
-  config.transfer = Transfer::aflip;
+  config.transfer = c.transfer;
   config.gravity = kGravity;
   config.ground.surface = {{0.0, 0.0}};
   config.ground.friction = c.friction;

@@ -1,4 +1,6 @@
 #pragma once
+#include "mpm/kernels/scheme.hpp"
+
 /// Scenes of verify/mpm/dry_columns.cpp.
 namespace flowslide::mpm {
 
@@ -23,6 +25,7 @@ struct DryColumn {
   double wall_friction = 0.0;      ///< of the channel's sides [-]
   double grain = 0.0;              ///< [m]
   double poisson_ratio = 0.3;
+  Transfer transfer = Transfer::aflip;
 };
 
 /// Sand of 1 mm at 30 degrees, 0.1 m long.
