@@ -117,7 +117,7 @@ Deposit measure(const Points<Dim>& p, const DryColumn& c, double height, double 
 template <int Dim>
 Deposit run(DryColumn c, int cells) {
   const double height = c.aspect * c.length, cell = std::min(height, c.length) / cells;
-  if (c.shape == Shape::channel) c.width = 0.5 * cell * std::lround(c.width / (0.5 * cell));
+  if (c.shape == Shape::channel) c.width = 0.5 * cell * std::round(c.width / (0.5 * cell));
   ParticleSet p = lattice<Dim>(c, height, 0.5 * cell);
   p.materials = {grains(c, height)};
   FlowConfig config = free_space(cell);
