@@ -28,7 +28,7 @@ enum class VolumeAverage { automatic, off };
 /// What a user can set about the steps.
 struct StepSettings {
   BasisKind basis = BasisKind::quadratic;
-  Transfer transfer = Transfer::aflip;
+  Transfer transfer = Transfer::apic;
   Update update = Update::symplectic;
   double relaxation = 0.3;   ///< of aflip: time constant [s]
   double flip_share = 0.99;  ///< of flip; 0 is pic
