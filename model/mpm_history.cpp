@@ -15,7 +15,7 @@ namespace flowslide {
 namespace {
 
 constexpr std::string_view kKind = "mpm_history";
-constexpr int kFormat = 3, kOldest = 3;  // 2 had no toe and no rule of rest
+constexpr int kFormat = 3, kOldest = 3;  // 2 had no toe, no rule of rest, no fronts by mass
 
 /// The one list of the arrays of a frame: f(name, label, array).
 template <class Frame, class F>

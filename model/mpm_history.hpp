@@ -49,6 +49,8 @@ struct MpmSample {
   double momentum_left_x = 0.0;     ///< momentum with which they left [N s]
   double momentum_left_y = 0.0;     ///< likewise, vertical [N s]
   double load_work = 0.0;           ///< work of tractions since the start [J]
+  /// Fronts by mass and the height (model/front.hpp) of the materials that count [m].
+  double front_equal_mass = 0.0, front_995 = 0.0, front_99 = 0.0, front_95 = 0.0, height = 0.0;
 };
 
 struct SampleColumn {
@@ -58,7 +60,7 @@ struct SampleColumn {
 };
 
 /// The one list of them: what is stored, and what tables show.
-inline constexpr std::array<SampleColumn, 22> kSampleColumns{
+inline constexpr std::array<SampleColumn, 27> kSampleColumns{
     {{"time", "s", &MpmSample::time},
      {"runout", "m", &MpmSample::runout},
      {"front", "m", &MpmSample::front},
@@ -80,7 +82,12 @@ inline constexpr std::array<SampleColumn, 22> kSampleColumns{
      {"strain_energy_left", "J", &MpmSample::strain_energy_left},
      {"momentum_left_x", "N s", &MpmSample::momentum_left_x},
      {"momentum_left_y", "N s", &MpmSample::momentum_left_y},
-     {"load_work", "J", &MpmSample::load_work}}};
+     {"load_work", "J", &MpmSample::load_work},
+     {"front_equal_mass", "m", &MpmSample::front_equal_mass},
+     {"front_995", "m", &MpmSample::front_995},
+     {"front_99", "m", &MpmSample::front_99},
+     {"front_95", "m", &MpmSample::front_95},
+     {"height", "m", &MpmSample::height}}};
 static_assert(sizeof(MpmSample) == kSampleColumns.size() * sizeof(double), "a column is missing");
 
 /// A MpmHistory of a run that may be killed and continued. While it is written, `path`.partial is a

@@ -18,6 +18,9 @@ struct ReportConfig {
   std::string title = "Runout of the section";
   std::optional<double> toe;            ///< x of the toe of the undeformed section [m]
   double moved = 1.0;                   ///< displacement from which a point counts as failed [m]
+  double stood = 0.1;                   ///< largest displacement of a section that stood [m]
+  double flow_reach = 1.0;              ///< flowed: farthest displacement of the flow / height [-]
+  std::optional<double> pond;           ///< level of the pond, for the freeboard left [m]
   double mass_quantile = 0.005;         ///< share of the failed mass beyond the robust front [-]
   double energy_warning = 0.05;         ///< largest silent residual of the energy balance [-]
   double momentum_warning = 0.05;       ///< largest silent residual of the impulse balance [-]
@@ -48,6 +51,14 @@ struct Schema<ReportConfig> {
                "counts, before deformation");
     v.quantity("moved", c.moved, Dim::length, {.above = 0.0},
                "displacement from which a material point counts as failed");
+    v.quantity("stood", c.stood, Dim::length, {.above = 0.0},
+               "the section stood if less than 0.5 % of its mass moved farther, it deformed if less "
+               "moved farther than `moved`");
+    v.quantity("flow_reach", c.flow_reach, Dim::none, {.above = 0.0},
+               "it flowed if 0.5 % of the mass moved farther after the transfer than this many "
+               "heights of the section; else it slid");
+    v.quantity("pond", c.pond, Dim::length, {},
+               "level of the pond; left out: no freeboard is told");
     v.quantity("mass_quantile", c.mass_quantile, Dim::none, {.above = 0.0, .below = 0.5},
                "share of the failed mass that lies beyond the robust front");
     for (const char* key : {"rest_kinetic", "rest_front", "rest_window"})

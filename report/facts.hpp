@@ -3,7 +3,9 @@
 #include "model/mpm_history.hpp"
 #include "model/particle_set.hpp"
 #include "model/zone.hpp"
+#include "report/composition.hpp"
 #include "report/config.hpp"
+#include "report/outcome.hpp"
 
 #include <cstdint>
 #include <string>
@@ -60,6 +62,9 @@ struct ReportFacts {
   double mass_error = 0.0;              ///< largest, relative
   double energy_error = 0.0;            ///< at the end, residual / work of gravity
   double momentum_error = 0.0;          ///< at the end, residual / impulse of gravity
+  Composition composition;
+  OutcomeFacts outcome;
+  std::vector<std::pair<double, double>> zone_shares;  ///< of zone_shares()
   std::vector<Movement> materials;
   std::vector<Movement> regions;
   std::vector<std::string> warnings;  ///< what an engineer must know before using the numbers

@@ -124,7 +124,7 @@ struct Runout {
   bool elastic;              ///< all materials are
   MpmHistoryWriter history;
   MpmFrame frame{};
-  std::vector<double> front_scratch{};
+  std::vector<Place> front_scratch{};
   MpmSample last{.time = s.time};
   bool over = false, rests = false;
   RestForecast forecast{};

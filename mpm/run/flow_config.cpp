@@ -174,7 +174,7 @@ void Schema<FlowConfig>::describe(FieldVisitor& v, FlowConfig& c) {
            "once more (musl, one sweep more)");
   v.choice("volume_average", c.volume_average, averages,
            "F-bar against volumetric locking: auto averages materials with Poisson's ratio of 0.4 "
-           "or more");
+           "or more and no friction");
   v.quantity("gravity", c.gravity, Dim::acceleration, {.min = 0.0}, "acceleration of gravity");
   v.quantity("courant", c.courant, Dim::none, {.max = 1.0, .above = 0.0},
              "share of the stable time step");

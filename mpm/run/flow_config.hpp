@@ -60,6 +60,7 @@ struct TractionSettings {
 
 /// Where and for how long the steps are taken, beside what is set about each of them.
 struct FlowConfig : mpm::StepSettings {
+  FlowConfig() { transfer = mpm::Transfer::aflip; }  ///< docs/adr/0009-transfer-of-velocity.md
   double cell = kUnset;                 ///< [m]
   std::array<double, 2> grid_origin{};  ///< [m]
   double end = kUnset;                  ///< [s]

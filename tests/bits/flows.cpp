@@ -79,6 +79,7 @@ ParticleSet block(const MaterialSpec& material) {
 FlowConfig settings() {
   FlowConfig c;
   c.cell = 0.5;
+  c.transfer = Transfer::apic;
   c.end = 10.0;
   c.ground.surface = {{-10.0, 0.0}, {8.0, 0.0}, {20.0, -3.0}};
   c.ground.friction = 0.4;
@@ -97,7 +98,7 @@ std::string digest(const ParticleSet& p, const FlowConfig& c, int threads, int s
   visit_arrays(s.points, [&](auto& array) {
     for (const auto x : array) d.add(x);
   });
-  std::vector<double> buffer;
+  std::vector<Place> buffer;
   const MpmSample r = sample(s, start, std::vector<bool>(s.materials.size(), true), buffer);
   for (const double x : {r.time, r.runout, r.front, r.kinetic, r.gravity_work, r.strain_energy,
                          r.plastic_work, r.friction_work, r.damping_work, r.max_speed, r.dt})

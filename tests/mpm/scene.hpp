@@ -53,6 +53,7 @@ inline FlowConfig free_space(double cell) {
   c.cell = cell;
   c.end = 1.0;
   c.gravity = 0.0;
+  c.transfer = Transfer::apic;
   c.ground.surface = {{0.0, -1e6}};
   return c;
 }
@@ -84,7 +85,7 @@ struct Run {
     while (s.time < time) step();
   }
   [[nodiscard]] MpmSample sample_now() const {
-    std::vector<double> buffer;
+    std::vector<Place> buffer;
     return sample(s, start, std::vector<bool>(s.materials.size(), true), buffer);
   }
 };

@@ -115,6 +115,24 @@ TEST_CASE("an imposed r_u gives its exact depth, zone and strength", "[transfer]
   for (const Vec2& p : zone.lower_boundary) CHECK(p[1] == 4.0);
 }
 
+TEST_CASE("soil above liquefied soil can keep its strength", "[transfer]") {
+  Column column({7.0, 4.0, 6.0});
+  ZoneConfig config = column_config();
+  const LiquefactionZone all = column.find(config);
+  config.zone = ZoneExtent::liquefied;
+  const LiquefactionZone only = column.find(config);
+  CHECK(only.lower_boundary == all.lower_boundary);
+  CHECK(only.window_depth_max == all.window_depth_max);
+  std::size_t fewer = 0;
+  for (std::size_t e = 0; e < column.mesh.num_elements(); ++e) {
+    CHECK(only.liquefied[e] == (all.liquefied[e] && only.r_u_element[e] > config.r_u.threshold));
+    CHECK(is_set(only.strength[e]) == (only.liquefied[e] == 1));
+    fewer += all.liquefied[e] != only.liquefied[e];
+  }
+  // The row at the surface has nodes without r_u, so the rule above it decides, not its own r_u.
+  CHECK(fewer > 0);
+}
+
 TEST_CASE("the zone of the moment can be asked for", "[transfer]") {
   ZoneConfig config = column_config();
   config.r_u.over_time = RuOverTime::instantaneous;

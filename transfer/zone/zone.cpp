@@ -40,6 +40,8 @@ void flag_elements(LiquefactionZone& zone, const QuadMesh& mesh, const ZoneParts
     const auto e = static_cast<std::size_t>(element);
     const Vec2 centre = centroid(corners(mesh, mesh.nodes, e));
     if (config.zone != ZoneExtent::all && !contains(shape, centre)) continue;
+    if (config.zone == ZoneExtent::liquefied && !(zone.r_u_element[e] > config.r_u.threshold))
+      continue;
     const LayerStrength s = strength_at(config.strength, zone.sigma_v0[e]);
     zone.liquefied[e] = 1;
     zone.strength[e] = s.strength;
@@ -107,7 +109,7 @@ LiquefactionZone find_zone(const FemHistory& history, const ZoneConfig& config,
   zone.window_names = h.window_names;
   std::size_t w = 0;
   for (const auto& [name, window] : windows_or_all(config)) {
-    zone.window_depth_max.push_back(config.zone == ZoneExtent::automatic
+    zone.window_depth_max.push_back(found_from_r_u(config.zone)
                                         ? h.depth_max[w][static_cast<std::size_t>(choice.frame)]
                                         : depth_of_shape(mesh, parts, shape, window, config));
     ++w;

@@ -62,7 +62,8 @@ void Schema<ZoneConfig>::describe(FieldVisitor& v, ZoneConfig& c) {
       {{"x", Dim::length}, {"y", Dim::length}}};
   Schema<TransferRuleConfig>::describe(v, c);
   v.choice("zone", c.zone, kZoneExtents,
-           "found from r_u, all of the liquefiable soil, above a line, or inside a polygon");
+           "found from r_u, all of the liquefiable soil, above a line, inside a polygon, or of what is "
+           "found from r_u only the elements that have liquefied themselves");
   v.rows("line", c.line, kPoint,
          "lower boundary for zone: line, x rising; level to the left, its last segment goes on");
   v.rows("polygon", c.polygon, kPoint, "corners for zone: polygon, in order");
@@ -119,7 +120,7 @@ void check(const ZoneConfig& c) {
         i + 1, c.line[i][0]);
   }
   check_points("polygon", c.polygon, 3, c.zone == ZoneExtent::polygon);
-  validate(!(c.zone == ZoneExtent::automatic && c.transfer.when == TransferWhen::gravity),
+  validate(!(found_from_r_u(c.zone) && c.transfer.when == TransferWhen::gravity),
            "zone: automatic with when: gravity (r_u is zero in the gravity state, nothing would be "
            "liquefied) write zone: all, or choose a later time");
   check(c.strength);

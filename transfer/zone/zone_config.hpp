@@ -16,9 +16,13 @@
 /// docs/theory/liquefaction-zone.md.
 namespace flowslide {
 
-enum class ZoneExtent { automatic, all, line, polygon };
-inline constexpr std::array<std::string_view, 4> kZoneExtents{"automatic", "all", "line",
-                                                              "polygon"};
+enum class ZoneExtent { automatic, all, line, polygon, liquefied };
+inline constexpr std::array<std::string_view, 5> kZoneExtents{"automatic", "all", "line",
+                                                              "polygon", "liquefied"};
+/// Whether the extent is found from r_u, and not given.
+constexpr bool found_from_r_u(ZoneExtent z) {
+  return z == ZoneExtent::automatic || z == ZoneExtent::liquefied;
+}
 
 /// sigma'_v0 that divides the excess pore pressure of a node: mean of the adjacent elements, or
 /// each element's own value as in the published script, the node taking the mean of the ratios.

@@ -159,6 +159,7 @@ ZoneShape zone_shape(const ZoneConfig& config, const QuadMesh& mesh,
   ZoneShape shape;
   switch (config.zone) {
     case ZoneExtent::automatic:
+    case ZoneExtent::liquefied:
       shape.lower_boundary =
           column_boundary(mesh, elements, r_u, config.r_u.threshold, config.columns);
       break;

@@ -29,7 +29,7 @@ std::vector<Vec2> column_boundary(const QuadMesh& mesh, std::span<const std::int
                                   std::span<const double> r_u, double threshold,
                                   const ColumnConfig& config);
 
-/// The shape asked for; `r_u` is used by zone: automatic only.
+/// The shape asked for; `r_u` is used by zone: automatic and liquefied only.
 ZoneShape zone_shape(const ZoneConfig& config, const QuadMesh& mesh,
                      std::span<const std::int32_t> elements, std::span<const double> r_u);
 

@@ -23,6 +23,7 @@ FlowConfig free_space(double cell) {
   c.cell = cell;
   c.end = 1.0;
   c.gravity = 0.0;
+  c.transfer = Transfer::apic;
   c.ground.surface = {{0.0, -1e6}};
   return c;
 }
@@ -60,7 +61,7 @@ void Trial::run_to(double time) {
 }
 
 MpmSample Trial::balances() const {
-  std::vector<double> buffer;
+  std::vector<Place> buffer;
   return sample(sim, reference, std::vector<bool>(sim.materials.size(), true), buffer);
 }
 

@@ -34,7 +34,7 @@ Slide slide(const DamScene& scene, double end) {
   };
   const double before = centre();
   while (s.time < end) advance(s, scratch);
-  std::vector<double> buffer;
+  std::vector<Place> buffer;
   const MpmSample now = sample(s, start, std::vector<bool>(s.materials.size(), true), buffer);
   std::vector<double> x(s.points.x[0].begin(), s.points.x[0].end());
   const auto at = x.begin() + static_cast<std::ptrdiff_t>(x.size() - x.size() / 100);

@@ -47,6 +47,11 @@ struct FlowStage {
     const double rate = f.step_seconds > 0.0 ? f.updates_this_call / f.step_seconds : 0.0;
     nlohmann::ordered_json facts = {{"runout_m", f.last.runout},
                                     {"front_m", f.last.front},
+                                    {"front_equal_mass_m", f.last.front_equal_mass},
+                                    {"front_995_m", f.last.front_995},
+                                    {"front_99_m", f.last.front_99},
+                                    {"front_95_m", f.last.front_95},
+                                    {"height_m", f.last.height},
                                     {"toe_m", particles.toe},
                                     {"mass_error", f.last.mass_error},
                                     {"energy_error", f.last.energy_error},
