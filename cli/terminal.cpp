@@ -26,16 +26,15 @@ std::size_t width_of(std::string_view text) {
   return text.size() - static_cast<std::size_t>(std::count_if(text.begin(), text.end(), continues));
 }
 
-/// Cuts at a column, never inside a UTF-8 character.
-std::string cut(std::string text, std::size_t columns) {
+}  // namespace
+
+std::string cut_to(std::string text, std::size_t columns) {
   if (width_of(text) <= columns) return text;
   std::size_t end = 0;
   for (std::size_t column = 0; end < text.size(); ++end)
     if (!continues(text[end]) && ++column > columns - 3) break;
   return text.substr(0, end) + "...";
 }
-
-}  // namespace
 
 std::size_t terminal_columns(int file) {
   constexpr std::size_t kLeast = 20, kUsual = 80, kMost = 10000;
@@ -134,7 +133,7 @@ void Display::plan(std::string_view stage, const Decision& decision) const {
                                     });
     why += fmt::format(", {} warning{}{}", n, n == 1 ? "" : "s", follow ? ":" : " (above)");
   }
-  fmt::print("{}\n", cut(fmt::format("{:<{}} {}{}", stage, kNameWidth, verb, why), columns_));
+  fmt::print("{}\n", cut_to(fmt::format("{:<{}} {}{}", stage, kNameWidth, verb, why), columns_));
 }
 
 void Display::progress(std::string_view stage, Share share, std::string_view text) {
@@ -154,7 +153,7 @@ void Display::progress(std::string_view stage, Share share, std::string_view tex
     const int tenth = static_cast<int>(fraction * 10.0);
     if (tenth <= last_tenth_ || tenth == 10) return;
     last_tenth_ = tenth;
-    fmt::print("{}\n", cut(fmt::format("{:<{}} {:>3} %  ETA {:>5}  {}", stage, kNameWidth, percent,
+    fmt::print("{}\n", cut_to(fmt::format("{:<{}} {:>3} %  ETA {:>5}  {}", stage, kNameWidth, percent,
                                        eta, text),
                            columns_));
     std::fflush(stdout);
@@ -167,7 +166,7 @@ void Display::progress(std::string_view stage, Share share, std::string_view tex
   const int full = static_cast<int>(fraction * bar);
   const std::string drawn =
       bar > 0 ? fmt::format("[{:#<{}}{:-<{}}] ", "", full, "", bar - full) : "";
-  fmt::print("\r\033[K{}", cut(fmt::format("{:<{}} {}{:>3} %  ETA {:>5}  {}", stage, kNameWidth,
+  fmt::print("\r\033[K{}", cut_to(fmt::format("{:<{}} {}{:>3} %  ETA {:>5}  {}", stage, kNameWidth,
                                            drawn, percent, eta, text),
                                columns_));
   std::fflush(stdout);
