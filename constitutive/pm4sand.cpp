@@ -50,6 +50,7 @@ PM4Sand::Constants PM4Sand::constants(const Params& p) {
   c.z_max = p.z_max;
   c.max_strain_increment = p.max_strain_increment;
   c.tolerance = p.tolerance;
+  c.opensees_reversals = p.reversals == Reversals::opensees;
   return c;
 }
 
@@ -144,6 +145,9 @@ void Schema<PM4Sand::Params>::describe(FieldVisitor& v, PM4Sand::Params& p) {
              "mean stress up to which the modulus is lowered after shaking; left out: P_atm/5");
   v.quantity("max_strain_increment", p.max_strain_increment, Dim::none, {.min = 1e-8, .max = 1.0},
              "largest strain component of a sub-step");
+  v.choice("reversals", p.reversals, PM4Sand::reversals_names,
+           "what small cycles about a shear stress remember: the distance from the last reversal "
+           "until the one before is passed, or the rule as OpenSees has it");
   v.quantity("tolerance", p.tolerance, Dim::none, {.max = 1.0, .above = 0.0},
              "stress error of a sub-step relative to the stress; larger errors halve the sub-step");
 }

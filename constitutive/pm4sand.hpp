@@ -18,6 +18,10 @@ struct PM4Sand {
   static constexpr std::string_view name = "pm4sand";
   static constexpr bool plane_mean_stress = true;  ///< sigma_zz is (xx + yy)/2
 
+  /// What small cycles about a shear stress remember: docs/theory/pm4sand.md, "Reversals".
+  enum class Reversals { published, opensees };
+  static constexpr std::array<std::string_view, 2> reversals_names{"published", "opensees"};
+
   /// Names and defaults of the OpenSees command; the density is the element's business.
   struct Params {
     double Dr = kUnset;                  ///< relative density, 0..1
@@ -42,6 +46,7 @@ struct PM4Sand {
     std::optional<double> p_sedo;        ///< [Pa]; unset: P_atm/5
     double max_strain_increment = 1e-5;  ///< largest strain component of a sub-step
     double tolerance = 1e-5;             ///< allowed stress error of a sub-step, relative
+    Reversals reversals = Reversals::published;
   };
 
   /// Symmetric, trace-free tensor in the plane: d = (xx - yy)/2, t = xy.
@@ -54,7 +59,7 @@ struct PM4Sand {
   struct State {
     Deviator alpha;         ///< back-stress ratio
     Deviator alpha_in;      ///< apparent initial back-stress ratio of this loading branch
-    Deviator alpha_in_p;    ///< that of the previous branch
+    Deviator alpha_in_p;    ///< back-stress ratio at the reversal before the last
     Deviator alpha_true;    ///< back-stress ratio at the last reversal
     Deviator alpha_max;     ///< largest negative initial ratio so far, by component
     Deviator alpha_min;     ///< smallest positive one
@@ -89,6 +94,7 @@ struct PM4Sand {
     double max_strain_increment, tolerance;
     /// Softer elasticity while the soil settles after shaking; the caller sets it then.
     bool post_shake = false;
+    bool opensees_reversals = false;
   };
 
   struct Update {

@@ -144,12 +144,12 @@ inline double dilation(const PM4Sand::Constants& c, const PM4Sand::State& s, con
 
 /// Dilatancy inside the rotated dilatancy surface, eqs (20) to (24).
 inline double contraction(const PM4Sand::Constants& c, const PM4Sand::State& s, const History& h,
-                          const Surfaces& f, double p, double z_n, double from_initial,
+                          const Surfaces& f, double p, double z_n, double contracted,
                           double to_dilatancy) {
   const double loose = positive(0.5 - f.xi);
   const double hp = c.hpo * exp(-0.7 + 7.0 * loose * loose);
   const double A_dc = s.A_do * (1.0 + positive(z_n)) / (hp * h.C_dz);
-  const double x = from_initial + kRoot2 * positive(z_n) * h.inverse_z_max;
+  const double x = contracted + kRoot2 * positive(z_n) * h.inverse_z_max;
   const double D = std::min(A_dc * x * x, 1.5 * s.A_do) * to_dilatancy / (to_dilatancy + 0.16);
   return D * std::clamp((p - 2.0 * s.p_min) / (16.0 * s.p_min), 0.0, 1.0);
 }
@@ -165,8 +165,12 @@ inline Flow flow(const PM4Sand::Constants& c, const PM4Sand::State& s, const His
   const double alpha_n = dot(at.alpha, r.n);
   const double to_bounding = kRootHalf * (f.Mb - c.m) - alpha_n;
   const double to_dilatancy = kRootHalf * (f.Md - c.m) - alpha_n;
-  const double from_initial = alpha_n - dot(s.alpha_in, r.n);
+  // distances from the start of the branch: true, apparent, and that of contraction
+  const double from_in = alpha_n - dot(s.alpha_in, r.n);
   const double from_true = positive(alpha_n - dot(s.alpha_true, r.n));
+  const bool inside = alpha_n <= dot(s.alpha_in_p, r.n);
+  const double apparent = c.opensees_reversals ? positive(from_in) : std::max(from_in, from_true);
+  const double contracted = c.opensees_reversals ? from_in : inside ? from_true : apparent;
   const double z_n = dot(at.z, r.n), minus_z_n = positive(-z_n);
 
   // plastic modulus, eqs (8) to (12)
@@ -174,12 +178,11 @@ inline Flow flow(const PM4Sand::Constants& c, const PM4Sand::State& s, const His
   const double C_ka = 1.0 + c.Ckaf / (1.0 + 6.25 * from_true * from_true) * below_pzp /
                                 (below_pzp + s.p_min) * h.C_zpk1;
   const double C_g1 = c.h0 / 200.0;
-  const double apparent = positive(from_initial);
   const double root_b = std::sqrt(std::max(std::abs(to_bounding), 1e-10));
   double rate = e.G * c.h0 * C_ka /
                 ((exp(apparent) - 1.0 + C_g1) * root_b *
                  (1.0 + 2.0 * h.peak_ratio * positive(to_bounding) * h.root_zpk2));
-  if (alpha_n <= dot(s.alpha_in_p, r.n)) rate *= (apparent + C_g1) / (from_true + C_g1);
+  if (inside) rate *= (apparent + C_g1) / (from_true + C_g1);
   r.Kp = rate * to_bounding;
   r.pull = rate / p;
   r.b_n = to_bounding;
@@ -192,7 +195,7 @@ inline Flow flow(const PM4Sand::Constants& c, const PM4Sand::State& s, const His
     r.D = dilation(c, s, h, f, e.M_cur, p, minus_z_n, C_zin1, to_dilatancy, to_rotated);
   } else {
     r.Kp = std::max(r.Kp, 0.0);
-    r.D = contraction(c, s, h, f, p, z_n, from_initial, to_dilatancy);
+    r.D = contraction(c, s, h, f, p, z_n, contracted, to_dilatancy);
   }
   r.beyond_dilatancy = to_dilatancy < 0.0;
   return r;

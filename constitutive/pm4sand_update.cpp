@@ -82,8 +82,8 @@ double elastic_part(double m, const Point& from, const Rates& step) {
 
 /// A reversal of loading: the present back-stress ratio becomes the initial one, limited by the
 /// earlier branches where the shear stress has not changed its sign.
-void reverse(State& s, double p, const Deviator& n) {
-  s.alpha_in_p = s.alpha_in;
+void reverse(const Constants& c, State& s, double p, const Deviator& n) {
+  s.alpha_in_p = c.opensees_reversals ? s.alpha_in : s.alpha_true;
   s.alpha_true = s.alpha;
   s.z_in = s.z;
   p = std::max(p, s.p_min);
@@ -153,7 +153,7 @@ class Integration {
     const Local start = local(c_, s_, Dr, at_);
     const Rates trial = elastic_rates(start.moduli, step);
     const Deviator n = (at_.s + trial.s) - (at_.p + trial.p) * at_.alpha;
-    if (dot(s_.alpha - s_.alpha_true, n) < 0.0) reverse(s_, at_.p, n);
+    if (dot(s_.alpha - s_.alpha_true, n) < 0.0) reverse(c_, s_, at_.p, n);
 
     const double a = elastic_part(c_.m, at_, trial);
     Point from = at_;
