@@ -16,6 +16,7 @@ void add_run(CLI::App& app, Command& action);
 void add_check(CLI::App& app, Command& action);
 void add_inspect(CLI::App& app, Command& action);
 void add_convert(CLI::App& app, Command& action);
+void add_plot(CLI::App& app, Command& action);
 void add_point(CLI::App& app, Command& action);
 void add_motion(CLI::App& app, Command& action);
 void add_report(CLI::App& app, Command& action);

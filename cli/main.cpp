@@ -75,6 +75,7 @@ int run(int argc, char** argv) {
   flowslide::cli::Command action;
   flowslide::cli::add_run(app, action);
   flowslide::cli::add_check(app, action);
+  flowslide::cli::add_plot(app, action);
   flowslide::cli::add_inspect(app, action);
   flowslide::cli::add_motion(app, action);
   flowslide::cli::add_point(app, action);
@@ -111,21 +112,15 @@ int run_and_report(int argc, char** argv) {
     return e.exit_code();
   } catch (const std::filesystem::filesystem_error& e) {
     print_errors(fmt::format("{}: {}", e.path1().string(), e.code().message()));
-    return 4;
+    return kNoResources;
   } catch (const std::system_error& e) {
     // the only other calls that throw these write to the terminal, a pipe or a file behind it
     print_errors(fmt::format("standard output: cannot be written ({})", e.code().message()));
-    return 4;
+    return kNoResources;
   } catch (const std::bad_alloc&) {
     print_errors(
         "out of memory (the model is larger than this machine can hold). Use a coarser "
         "cell or spacing, or a larger machine.");
-    return kNoResources;
-  } catch (const std::filesystem::filesystem_error& e) {
-    print_errors(fmt::format("{}: {}", e.path1().string(), e.code().message()));
-    return kNoResources;
-  } catch (const std::system_error& e) {
-    print_errors(fmt::format("{} (the system refused it)", e.what()));
     return kNoResources;
   } catch (const std::exception& e) {
     print_errors(

@@ -1,10 +1,6 @@
 #include "report/figures.hpp"
 
-#include "core/check.hpp"
 #include "core/files.hpp"
-#include "core/temporary_folder.hpp"
-#include "plot_scripts.hpp"
-#include "report/helper_program.hpp"
 
 #include <utility>
 
@@ -13,106 +9,22 @@ namespace fs = std::filesystem;
 namespace flowslide {
 namespace {
 
-constexpr const char* kInstall =
-    "(figures need Python 3 with NumPy and Matplotlib) install the Debian package "
-    "python3-matplotlib or name an interpreter in the setting 'python', then build the report "
-    "again";
-constexpr double kLookSeconds = 60.0;  ///< for the question what an interpreter has
-constexpr int kSystemError = 74;       ///< of plot.py, see there
-constexpr std::uint64_t kLongestLog = 1u << 30;
-
-/// Arguments of an isolated interpreter: no variables, no packages of the user, nothing imported
-/// from the working folder or from that of a script. The modules are those of `scripts`.
-std::vector<std::string> isolated(const std::string& python, const char* code) {
-  return {python, "-I", "-B", "-c", code};
-}
-
-std::string last_lines(const fs::path& log, const std::string& scripts) {
-  constexpr std::size_t most = 600;
-  std::error_code error;
-  if (!fs::exists(log, error)) return "";
-  std::string text = read_file(log, kLongestLog);
-  // The folder has another name each time; the report must not.
-  for (std::size_t at; (at = text.find(scripts)) != std::string::npos;)
-    text.replace(at, scripts.size(), "plot/");
-  return text.size() > most ? "..." + text.substr(text.size() - most) : text;
-}
-
-std::optional<std::string> find_python(const std::optional<std::string>& wanted,
-                                       const TemporaryFolder& work, const Progress& progress) {
-  const std::vector<std::string> candidates =
-      wanted ? std::vector{*wanted} : std::vector<std::string>{"python3", "/usr/bin/python3"};
-  for (const std::string& python : candidates)
-    if (run_helper({isolated(python,
-                             "import importlib.util as u, sys; "
-                             "sys.exit(not (u.find_spec('matplotlib') and u.find_spec('numpy')))"),
-                    work / "", work / "look.log", kLookSeconds},
-                   progress)
-            .status == 0)
-      return python;
-  return std::nullopt;
-}
-
 void remove_old(const fs::path& folder) {
   for (const Figure& figure : kFigures)
     for (const char* ending : {".svg", ".png"})
       remove_path(folder / (std::string(figure.name) + ending));
 }
 
-/// Why there are no figures; empty if there are.
-std::string problem_of(const HelperOutcome& outcome, const std::string& python, double seconds,
-                       const std::string& last_words) {
-  if (outcome.timed_out)
-    return fmt::format(
-        "No figures were drawn: {} had not ended after {:.0f} s (it was ended) look for what "
-        "keeps the machine busy, then build the report again.",
-        python, seconds);
-  if (outcome.status == kSystemError)
-    throw FileError(fmt::format("the figures cannot be drawn:\n{}", last_words));
-  if (outcome.status != 0)
-    return fmt::format(
-        "No figures were drawn: {} ended with status {} (the cause is in its last words) mend it "
-        "and build the report again:\n{}",
-        python, outcome.status, last_words);
-  return "";
-}
-
 }  // namespace
-
-std::vector<std::string> write_plot_scripts(const fs::path& folder) {
-  std::vector<std::string> files;
-  for (const auto& [name, text] : kPlotScripts) {
-    write_file(folder / name, text);
-    files.push_back((folder.filename() / name).generic_string());
-  }
-  return files;
-}
 
 DrawnFigures draw_figures(const fs::path& folder, const std::optional<std::string>& python,
                           const FigureLimits& limits, const std::vector<std::string>& only) {
   remove_old(folder / "figures");
-  const TemporaryFolder work;
-  write_plot_scripts(work / "");
   DrawnFigures drawn;
-  const auto interpreter = find_python(python, work, limits.progress);
-  if (!interpreter) {
-    drawn.problem =
-        fmt::format("No figures were drawn: {} {}.",
-                    python ? "'" + *python + "' cannot be used" : "none was found", kInstall);
-    return drawn;
-  }
-  HelperRun run{.arguments = isolated(*interpreter,
-                                      "import sys; sys.path.insert(0, sys.argv[1]); import plot; "
-                                      "plot.run(sys.argv[2], sys.argv[3], sys.argv[4:])"),
-                .folder = work / "",
-                .log = work / "plot.log",
-                .seconds = limits.seconds};
   const std::string report = fs::absolute(folder).string();
-  for (const std::string& a : {(work / "").string(), report, report}) run.arguments.push_back(a);
-  run.arguments.insert(run.arguments.end(), only.begin(), only.end());
-  const HelperOutcome outcome = run_helper(run, limits.progress);
-  drawn.problem =
-      problem_of(outcome, *interpreter, limits.seconds, last_lines(run.log, (work / "").string()));
+  std::vector<std::string> arguments{report, report};
+  arguments.insert(arguments.end(), only.begin(), only.end());
+  drawn.problem = run_plot_script("plot.run", arguments, python, limits);
   if (!drawn.problem.empty()) return drawn;
   std::error_code error;
   for (const Figure& figure : kFigures)

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/progress.hpp"
+#include "report/plot_runner.hpp"
 
 #include <array>
 #include <filesystem>
@@ -29,15 +29,6 @@ struct DrawnFigures {
   std::vector<Figure> figures;  ///< in the order of kFigures; those without data are left out
   std::string problem;          ///< why there are none, and what to do; empty if drawn
 };
-
-struct FigureLimits {
-  Progress progress;       ///< a request to stop ends the interpreter
-  double seconds = 120.0;  ///< so does this time
-};
-
-/// Writes the scripts that draw the figures into an existing folder; returns their paths from the
-/// folder above it.
-std::vector<std::string> write_plot_scripts(const std::filesystem::path& folder);
 
 /// Writes figures/<name>.svg and .png into a report folder that holds data/, runout.csv and
 /// zone.csv (write_plot_data, tables.hpp). What is run are the scripts inside this program, never

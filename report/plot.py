@@ -141,11 +141,11 @@ def main(folder, out, names):
             drawing.result()
 
 
-def run(folder, out, names):
-    """What the program calls: disk and memory that do not suffice have an exit status of their own,
-    for then nothing is wrong with the data."""
+def guarded(action):
+    """Disk and memory that do not suffice have an exit status of their own, for then nothing is
+    wrong with the data."""
     try:
-        main(pathlib.Path(folder), pathlib.Path(out), names)
+        action()
     except (OSError, MemoryError) as error:
         full = (errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EROFS, errno.ENOMEM, errno.EAGAIN,
                 errno.EMFILE, errno.ENFILE, errno.EFBIG)
@@ -153,6 +153,11 @@ def run(folder, out, names):
             raise
         print(f"{type(error).__name__}: {error}", file=sys.stderr)
         sys.exit(74)
+
+
+def run(folder, out, *names):
+    """What the program calls."""
+    guarded(lambda: main(pathlib.Path(folder), pathlib.Path(out), names))
 
 
 if __name__ == "__main__":

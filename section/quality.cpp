@@ -48,6 +48,7 @@ MeshQuality measure_quality(const QuadMesh& mesh) {
   const auto take = [](WorstElement& worst, double value, std::size_t e, bool smaller) {
     if (e == 0 || (smaller ? value < worst.value : value > worst.value)) worst = {value, e};
   };
+  std::vector<double> thickness;
   for (std::size_t e = 0; e < mesh.num_elements(); ++e) {
     const Shape s = measure(corners(mesh, mesh.nodes, e));
     take(quality.jacobian_ratio, s.jacobian_ratio, e, true);
@@ -56,7 +57,11 @@ MeshQuality measure_quality(const QuadMesh& mesh) {
     take(quality.shortest_edge, s.shortest, e, true);
     take(quality.longest_edge, s.longest, e, false);
     take(quality.thickness, s.thickness, e, true);
+    thickness.push_back(s.thickness);
   }
+  const auto half = thickness.begin() + std::ssize(thickness) / 2;
+  std::nth_element(thickness.begin(), half, thickness.end());
+  if (half != thickness.end()) quality.median_thickness = *half;
   return quality;
 }
 
@@ -78,6 +83,13 @@ std::vector<std::string> quality_notes(const QuadMesh& mesh, const MeshQuality& 
   if (q.angle.value > 75.0)
     notes.push_back(fmt::format("{} has a corner of {:.3g} degrees less or more than 90",
                                 place(q.angle), q.angle.value));
+  // The thinnest element sets the explicit steps of all.
+  if (const double price = q.median_thickness / q.thickness.value; price > 4.0)
+    notes.push_back(fmt::format(
+        "{} is {:.2g} m thin where half of the elements are thicker than {:.2g} m, so that a shaking "
+        "takes some {:.0f} times more steps than the rest needs (as many elements cross a narrow "
+        "part as a wide one) end blocks where the section narrows, or ask for larger elements",
+        place(q.thickness), q.thickness.value, q.median_thickness, price));
   return notes;
 }
 

@@ -20,12 +20,13 @@ struct MeshQuality {
   WorstElement longest_edge;    ///< [m]
   /// Smallest area over longest edge, the distance a wave crosses in an explicit step [m].
   WorstElement thickness;
+  double median_thickness = 0.0;  ///< [m]
 };
 
 MeshQuality measure_quality(const QuadMesh& mesh);
 
-/// A line for each measure beyond 0.2 (Jacobian ratio), 10 (aspect) and 75 degrees (angle), with
-/// element and place.
+/// A line for each measure beyond 0.2 (Jacobian ratio), 10 (aspect), 75 degrees (angle) and a
+/// quarter of the median (thickness), with element and place.
 std::vector<std::string> quality_notes(const QuadMesh& mesh, const MeshQuality& quality);
 
 }  // namespace flowslide

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 /// Momentum balance on the grid: v* = (m v + dt (f + m b)) / m; contact.hpp then holds it at walls.
 namespace flowslide::mpm {
@@ -47,9 +48,11 @@ struct MomentumSettings {
 /// and the points near them weigh them with w -> 0 anyway.
 inline constexpr double kMassFloor = 1e-18;
 
-/// Local non-viscous damping opposes the motion with a share of the force (Cundall 1987).
+/// Local non-viscous damping opposes the motion with a share of the force (Cundall 1987); what rests
+/// it keeps from starting.
 inline double damping_force(double factor, double force, double velocity) noexcept {
-  return factor == 0.0 ? 0.0 : -factor * std::copysign(std::abs(force), velocity);
+  if (factor == 0.0) return 0.0;
+  return -factor * (velocity == 0.0 ? force : std::copysign(std::abs(force), velocity));
 }
 
 /// Force of tractions on a node [N].
@@ -62,11 +65,13 @@ double load_on(const std::array<double, 8>& q, int d) noexcept {
 }
 
 /// Velocities of a block's nodes after the step, and their change in place of the force. Without
-/// tractions where not `kLoaded`. `gain2` is raised to the largest square of a change, times
+/// tractions where not `kLoaded`. Nodes in `at_walls`, one bit each, are damped by hold_at_walls,
+/// when all forces on them are known. `gain2` is raised to the largest square of a change, times
 /// (m / light)^2 for light nodes [m2/s2].
 template <int Dim, bool kLoaded>
 GridWork<Dim> update_momentum(Grid<Dim>& grid, std::size_t block, const MomentumSettings& s,
-                              double full_mass, double& gain2) noexcept {
+                              std::uint64_t at_walls, double full_mass, double& gain2) noexcept {
+  static_assert(kBlockNodes<Dim> <= 64);
   using L = NodeLayout<Dim>;
   GridWork<Dim> work;
   Node* nodes = grid.nodes.data() + block * kBlockNodes<Dim>;
@@ -81,13 +86,14 @@ GridWork<Dim> update_momentum(Grid<Dim>& grid, std::size_t block, const Momentum
       continue;
     }
     const double inverse = 1.0 / m;
+    const double cundall = s.cundall == 0.0 || (at_walls >> n & 1) ? 0.0 : s.cundall;
     double change2 = 0.0;
     for (int d = 0; d < Dim; ++d) {
       const double v = q[L::momentum + d] * inverse;
       const double f = q[L::force + d];
       const double weight = m * s.gravity[d];
       const double load = kLoaded ? load_on<Dim>(q, d) : 0.0;
-      const double drag = damping_force(s.cundall, kLoaded ? f + weight + load : f + weight, v);
+      const double drag = damping_force(cundall, kLoaded ? f + weight + load : f + weight, v);
       const double outer = kLoaded ? weight + load : weight;
       const double v_new = v + s.dt * (f + outer + drag) * inverse;
       const double path = 0.5 * s.dt * (v + v_new);

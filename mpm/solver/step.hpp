@@ -143,14 +143,16 @@ struct Phases {
       add_loads<Dim, Basis>(s, scratch);
     }
     const auto blocks = static_cast<std::int32_t>(s.grid.blocks.size());
+    const std::uint64_t* at_walls = s.contact.in_block.data();
     double most2 = 0.0;
 #pragma omp for schedule(static) nowait
     for (std::int32_t b = 0; b < blocks; ++b) {
       sum_windows<Dim, Basis>(s.tiling, scratch.windows.data(), b, s.grid.nodes.data());
       double gain2 = 0.0;
       scratch.grid_work[b] =
-          loaded ? update_momentum<Dim, true>(s.grid, b, momentum, s.full_mass, gain2)
-                 : update_momentum<Dim, false>(s.grid, b, momentum, s.full_mass, gain2);
+          loaded
+              ? update_momentum<Dim, true>(s.grid, b, momentum, at_walls[b], s.full_mass, gain2)
+              : update_momentum<Dim, false>(s.grid, b, momentum, at_walls[b], s.full_mass, gain2);
       scratch.gain2[b] = gain2;
       if (!(gain2 <= most2)) most2 = gain2;
     }

@@ -30,6 +30,7 @@ struct Contact {
   std::vector<std::int32_t> node;   ///< per entry, into `nodes`
   std::vector<double> weight;       ///< per entry: the node's share of the wall point's impulse
   std::vector<std::int32_t> nodes;  ///< contact nodes as indices into Grid::nodes, ascending
+  std::vector<std::uint64_t> in_block;  ///< per block: a bit for each of its contact nodes
   // Buffers of a step.
   std::vector<Vector> velocity;      ///< per contact node [m/s]
   std::vector<double> inverse_mass;  ///< per contact node [1/kg]

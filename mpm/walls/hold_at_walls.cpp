@@ -8,32 +8,6 @@
 namespace flowslide::mpm {
 namespace {
 
-/// Takes the local damping of the free step back: it opposes forces that walls have yet to balance.
-template <int Dim>
-void take_back_damping(Grid<Dim>& grid, const Contact<Dim>& c, const MomentumSettings& s,
-                       double floor, GridWork<Dim>& work) noexcept {
-  using L = NodeLayout<Dim>;
-  for (const std::int32_t node : c.nodes) {
-    auto& q = grid.nodes[node].q;
-    const double m = q[L::mass];
-    if (!(m > floor)) continue;
-    for (int d = 0; d < Dim; ++d) {
-      const double old = q[L::momentum + d], before = old - q[L::force + d];
-      const double total = m * q[L::force + d] / s.dt, weight = m * s.gravity[d];
-      const double load = load_on<Dim>(q, d);
-      const double pull = total / (1.0 - std::copysign(s.cundall, total * before));
-      const double change = s.dt * (pull - total) / m;
-      work.internal_end += s.dt * (pull - weight - load) * change;
-      work.gravity += 0.5 * s.dt * weight * change;
-      work.load += 0.5 * s.dt * load * change;
-      work.damping -= 0.5 * s.dt * (total - pull) * (before + old);
-      work.boundary_impulse[d] -= s.dt * (total - pull);
-      q[L::momentum + d] += change;
-      q[L::force + d] += change;
-    }
-  }
-}
-
 /// Calls f(wall point, its impulse) for every dashpot.
 template <int Dim, class F>
 void for_each_dashpot(Contact<Dim>& c, F&& f) {
@@ -105,7 +79,6 @@ GridWork<Dim> hold_at_walls(Grid<Dim>& grid, Contact<Dim>& c, const MomentumSett
                             double full_mass) noexcept {
   using L = NodeLayout<Dim>;
   GridWork<Dim> work;
-  if (s.cundall > 0.0) take_back_damping(grid, c, s, kMassFloor * full_mass, work);
   const bool absorbs = !c.absorbing.dashpots.empty();
   if (absorbs) ready_dashpots(grid, c, s.dt, full_mass);
   solve(grid.nodes, c, full_mass, Hold::contact, c.impulse, absorbs ? Ends::drain : Ends::idle,

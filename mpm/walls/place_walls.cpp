@@ -187,6 +187,9 @@ void place_walls(const Grid<Dim>& grid, const Ground& ground, const Rollers& rol
   for (const std::int32_t node : place.grid_node)
     c.node.push_back(static_cast<std::int32_t>(
         std::lower_bound(c.nodes.begin(), c.nodes.end(), node) - c.nodes.begin()));
+  c.in_block.assign(grid.blocks.size(), 0);
+  for (const std::int32_t node : c.nodes)
+    c.in_block[node / kBlockNodes<Dim>] |= std::uint64_t{1} << node % kBlockNodes<Dim>;
   c.velocity.resize(c.nodes.size());
   c.inverse_mass.resize(c.nodes.size());
   c.mobility.resize(c.walls.size());

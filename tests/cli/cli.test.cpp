@@ -271,6 +271,21 @@ TEST_CASE("the committed workflows pass the check", "[cli]") {
   }
 }
 
+TEST_CASE("a section is drawn before anything runs", "[cli]") {
+  const Scratch scratch;
+  const std::string file = test::source("workflows/mochikoshi-static.yaml");
+  const Outcome drawn = call(scratch, "plot " + file + " --out section.svg");
+  CHECK(drawn.code == 0);
+  CHECK_THAT(drawn.out, Contains("section.svg: 1849 elements, 2003 nodes"));
+  const std::string svg = read_text_file(scratch / "section.svg");
+  CHECK_THAT(svg, Contains("<svg") && Contains("material 168 (") && Contains("runout begins here"));
+  CHECK_FALSE(std::filesystem::exists(scratch / "runs"));
+  const Outcome other = call(scratch, "plot " + file + " --out section.bmp");
+  CHECK(other.code == 2);
+  CHECK_THAT(other.err, Contains(".png, .svg and .pdf"));
+  CHECK_FALSE(std::filesystem::exists(scratch / "section.bmp"));
+}
+
 TEST_CASE("a point is driven from its file", "[cli]") {
   const Scratch scratch;
   const std::string file = test::source("docs/guide/cyclic-shear.yaml");

@@ -109,6 +109,33 @@ blocks:
   CHECK(q.longest_edge.value == Approx(4.0).epsilon(0.12));
 }
 
+TEST_CASE("a crest that is narrow for its elements is told with its price") {
+  const auto mesh_with = [](const std::string& size) {
+    return mesh_section(section_of("size: " + size + R"(
+materials: {sand: {tag: 1}}
+blocks:
+  ground: {outline: [[-60 m, -10 m], [97 m, -10 m], [97 m, 0 m], [-60 m, 0 m]], material: sand}
+  dam: {outline: [[0 m, 0 m], [37 m, 0 m], [20 m, 12 m], [15 m, 12 m]], material: sand}
+)"));
+  };
+  // 18 elements of 2 m cross the base, and as many the 5 m of the crest.
+  const SectionMesh s = mesh_with("2 m");
+  REQUIRE(s.notes.size() == 1);
+  CHECK_THAT(s.notes[0], Contains("m thin") && Contains("times more steps") && Contains(", 11."));
+  const MeshQuality q = measure_quality(s.mesh);
+  CHECK(q.median_thickness / q.thickness.value > 4.0);
+  // The control: blocks that end where the section narrows.
+  const SectionMesh stepped = mesh_section(section_of(R"(
+size: 2 m
+materials: {sand: {tag: 1}}
+blocks:
+  ground: {outline: [[-60 m, -10 m], [97 m, -10 m], [97 m, 0 m], [-60 m, 0 m]], material: sand}
+  low: {outline: [[0 m, 0 m], [37 m, 0 m], [25 m, 8.5 m], [11 m, 8.5 m]], material: sand}
+  high: {outline: [[14 m, 8.5 m], [22 m, 8.5 m], [20 m, 12 m], [15 m, 12 m]], material: sand}
+)"));
+  CHECK(measure_quality(stepped.mesh).thickness.value > 1.5 * q.thickness.value);
+}
+
 TEST_CASE("a block of three corners becomes three grids") {
   const SectionMesh s = mesh_section(section_of(R"(
 size: 1 m

@@ -203,6 +203,7 @@ void preview_stages(Workflow& workflow, const YamlNode& stages, Problems& proble
       try {
         const std::any preview = stage.prepared.preview(inputs, found);
         for (const Port& port : stage.type.outputs) known[i][port.name] = preview;
+        stage.preview = preview;
       } catch (const InputError& e) {
         found.errors.emplace_back(e.what());
       } catch (const FileError& e) {

@@ -1,6 +1,7 @@
 #pragma once
 #include "workflows/engine/stage.hpp"
 
+#include <any>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -20,6 +21,7 @@ struct WorkflowStage {
   StageType type;
   PreparedStage prepared;
   std::vector<Link> inputs;  ///< in the order of type.inputs
+  std::any preview = {};                   ///< what its preview returned; empty if it has none
   std::vector<std::string> warnings = {};  ///< what is odd about its settings and their files
 };
 

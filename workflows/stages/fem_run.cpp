@@ -65,6 +65,7 @@ struct FemRun {
     p.stop = config.stop_at_transfer;
     p.shakes = true;
     p.end = config.end;
+    p.water = config.water;
     if (!p.section) return p;
     check_water(config, p.section->mesh, found);
     for (const MaterialName& m : p.section->materials)

@@ -11,6 +11,7 @@ Preview merged(const Previews& inputs) {
     all.shakes = all.shakes || p->shakes;
     if (!all.end) all.end = p->end;
     all.density.insert(p->density.begin(), p->density.end());
+    if (!all.water) all.water = p->water;
     if (!all.stop) all.stop = p->stop;
     if (!all.zone) all.zone = p->zone;
     if (!all.map) all.map = p->map;

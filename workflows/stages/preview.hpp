@@ -20,6 +20,7 @@ struct Preview {
   bool shakes = false;                         ///< the history has more than the state at rest
   std::optional<double> end;                   ///< of the shaking, if settings say it [s]
   std::map<int, double> density;               ///< by material tag, of the finite elements [kg/m3]
+  std::optional<WaterConfig> water;            ///< of the finite elements
   std::optional<StopAtTransferConfig> stop;
   std::optional<ZoneConfig> zone;
   std::optional<MapConfig> map;
