@@ -12,7 +12,7 @@ namespace {
 struct ReportStage {
   static constexpr std::string_view name = "report.runout";
   static constexpr std::string_view doc = "Facts, figures, tables and ParaView files of a runout.";
-  static constexpr int version = 2;
+  static constexpr int version = 3;
   static constexpr bool checkpoints = false;
   static constexpr bool reads_warnings = true;
   using Config = ReportConfig;
