@@ -154,8 +154,8 @@ ShearTest run_simple_shear(PointUnderTest& point, const SimpleShear& test) {
   while (now.half_cycles < test.max_half_cycles) {
     const double d_gamma = direction * test.strain_step;
     const auto normal = test.drained ? Prescribed::stress_value(vertical) : Prescribed{};
-    const StrainIncrement<2> de =
-        divided_step(point, {Prescribed{}, normal, Prescribed::strain_increment(d_gamma)}, tolerance);
+    const StrainIncrement<2> de = divided_step(
+        point, {Prescribed{}, normal, Prescribed::strain_increment(d_gamma)}, tolerance);
     now.gamma += d_gamma;
     now.eps_yy += de[1];
     now.sigma_xx = point.stress[0];

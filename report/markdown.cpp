@@ -139,7 +139,8 @@ std::string liquefaction(const ReportInputs& in) {
   out += fmt::format("Reason: {}\n\nThe liquefied zone has {} elements, {:.0f} m2.\n\n",
                      cell(zone.transfer_reason), elements, area_liquefied);
   Rows rows;
-  const auto add_depths = [&rows, &zone](const std::string& rule, const std::vector<double>& depth) {
+  const auto add_depths = [&rows, &zone](const std::string& rule,
+                                         const std::vector<double>& depth) {
     for (std::size_t w = 0; w < depth.size(); ++w)
       rows.emplace_back(zone.window_names[w] + rule, number(depth[w], 2, "m"));
   };

@@ -1,10 +1,10 @@
 #include "transfer/zone/energy.hpp"
-#include "transfer/zone/sliding.hpp"
 
 #include "core/check.hpp"
 #include "core/conventions.hpp"
 #include "core/elementary.hpp"
 #include "tests/transfer/zone_grid.hpp"
+#include "transfer/zone/sliding.hpp"
 
 #include <catch2/catch.hpp>
 

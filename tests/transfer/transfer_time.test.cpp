@@ -52,9 +52,10 @@ struct Record {
   [[nodiscard]] Record first(std::size_t n) const {
     Record r = *this;
     r.base.resize(n);
-    for (std::vector<double>* x : {&r.h.time, &r.h.kinetic_energy, &r.h.kinetic_energy_relative,
-                                   &r.h.sliding_energy, &r.h.distortion_gauss, &r.h.distortion_centre, &r.h.depth[0],
-                                   &r.h.depth[1], &r.h.depth_max[0], &r.h.depth_max[1]})
+    for (std::vector<double>* x :
+         {&r.h.time, &r.h.kinetic_energy, &r.h.kinetic_energy_relative, &r.h.sliding_energy,
+          &r.h.distortion_gauss, &r.h.distortion_centre, &r.h.depth[0], &r.h.depth[1],
+          &r.h.depth_max[0], &r.h.depth_max[1]})
       x->resize(n);
     return r;
   }

@@ -252,8 +252,8 @@ TEST_CASE("settings that do not fit the mesh or each other are refused", "[trans
 TEST_CASE("a single node decides the depth of single nodes only, and r_u above 1.2 is named",
           "[transfer]") {
   const Column column({7.0});
-  const auto path = std::filesystem::temp_directory_path() /
-                    fmt::format("flowslide-zone-lone-{}.h5", getpid());
+  const auto path =
+      std::filesystem::temp_directory_path() / fmt::format("flowslide-zone-lone-{}.h5", getpid());
   const FemHistory calm = column.history();
   FemHistoryWriter writer(path, column.mesh, {});
   writer.set_gravity(calm.gravity());

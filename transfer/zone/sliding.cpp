@@ -16,8 +16,8 @@ SlidingEnergy::Values SlidingEnergy::append(double time, const QuadMesh& mesh,
   Instant now{.time = time, .base = {0.0, 0.0}, .relative = {}};
   for (const std::int32_t n : base_nodes)
     for (std::size_t k = 0; k < 2; ++k)
-      now.base[k] += displacement[static_cast<std::size_t>(n)][k] /
-                     static_cast<double>(base_nodes.size());
+      now.base[k] +=
+          displacement[static_cast<std::size_t>(n)][k] / static_cast<double>(base_nodes.size());
   now.relative.reserve(elements.size());
   for (const std::int32_t e : elements) {
     Vec2 mean{-now.base[0], -now.base[1]};

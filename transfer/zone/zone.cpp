@@ -91,8 +91,7 @@ void add_depths(LiquefactionZone& zone, const ZoneRecorder& record, const ZonePa
   zone.onset_time = kUnset;
   if (config.zone != ZoneExtent::automatic || h.time.empty()) {
     for (const auto& [name, window] : windows_or_all(config))
-      zone.window_depth_max.push_back(
-          depth_of_shape(record.mesh(), parts, shape, window, config));
+      zone.window_depth_max.push_back(depth_of_shape(record.mesh(), parts, shape, window, config));
     zone.window_depth_any = zone.window_depth_interpolated = zone.window_depth_strong =
         zone.window_depth_before_slide = zone.window_depth_max;
     return;

@@ -38,7 +38,8 @@ struct Schema<ZoneBox> {
 
 template <>
 struct Schema<ColumnConfig> {
-  static constexpr std::string_view doc = "Columns in which depths and the automatic zone are found.";
+  static constexpr std::string_view doc =
+      "Columns in which depths and the automatic zone are found.";
   static void describe(FieldVisitor& v, ColumnConfig& c) {
     v.quantity("width", c.width, Dim::length, {.above = 0.0},
                "width; the median width of the liquefiable elements if left out");

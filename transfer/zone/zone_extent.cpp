@@ -78,8 +78,8 @@ std::vector<Vec2> column_boundary(const QuadMesh& mesh, std::span<const std::int
                                   std::span<const double> r_u, double threshold,
                                   const ColumnConfig& config) {
   FLOWSLIDE_EXPECT(r_u.size() == mesh.num_nodes());
-  const std::vector<std::uint8_t> counted = confirmed_nodes(
-      soil_neighbours(mesh, elements), r_u, threshold, config.neighbours);
+  const std::vector<std::uint8_t> counted =
+      confirmed_nodes(soil_neighbours(mesh, elements), r_u, threshold, config.neighbours);
   std::vector<Vec2> line;
   for (const SoilColumn& column : soil_columns(mesh, elements, config.width)) {
     const double top = mesh.nodes[static_cast<std::size_t>(column.nodes.back())][1];

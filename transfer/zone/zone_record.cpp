@@ -104,8 +104,8 @@ ZoneRecorder::ZoneRecorder(const QuadMesh& mesh, const FemFrame& gravity,
   config_.windows = windows_or_all(config);
   reference_ = r_u_reference(mesh_, gravity, parts_.in_soil, config_.r_u);
   for (const auto& [name, window] : config_.windows) history_.window_names.push_back(name);
-  for (auto* table : {&history_.depth, &history_.depth_max, &history_.depth_any,
-                      &history_.depth_interpolated})
+  for (auto* table :
+       {&history_.depth, &history_.depth_max, &history_.depth_any, &history_.depth_interpolated})
     table->resize(history_.window_names.size());
 }
 
@@ -173,8 +173,8 @@ void ZoneRecorder::append(const FemFrame& frame) {
                                   config_.transfer.automatic.strain_threshold);
   history_.distortion_gauss.push_back(q.gauss);
   history_.distortion_centre.push_back(q.centre);
-  const SlidingEnergy::Values sliding = sliding_.append(
-      frame.time, mesh_, parts_.section, mass_, frame.displacement, parts_.base_nodes);
+  const SlidingEnergy::Values sliding = sliding_.append(frame.time, mesh_, parts_.section, mass_,
+                                                        frame.displacement, parts_.base_nodes);
   history_.sliding_energy.push_back(sliding.section);
   base_kinetic_.push_back(energy.base);
   base_energy_.push_back(config_.transfer.automatic.energy == EnergyFrame::sliding ? sliding.base

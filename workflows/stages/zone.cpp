@@ -78,8 +78,7 @@ struct ZoneStage {
     write_zone(out.zone.path, zone);
     nlohmann::ordered_json facts = {{"transfer_time_s", zone.transfer_time},
                                     {"transfer_reason", zone.transfer_reason}};
-    for (std::size_t i = 0; i < zone.window_names.size(); ++i)
-      add_depths(facts, zone, i);
+    for (std::size_t i = 0; i < zone.window_names.size(); ++i) add_depths(facts, zone, i);
     if (is_set(zone.onset_time)) facts["onset_time_s"] = zone.onset_time;
     facts["strong_shaking_end_s"] = zone.strong_shaking_end;
     facts["zone_notes"] = zone.notes;
