@@ -86,9 +86,10 @@ T elastic_part(T m, const PointOf<T>& from, const Rates<T>& step) {
 /// A reversal of loading where `turns`: the present back-stress ratio becomes the initial one,
 /// limited by the earlier branches where the shear stress has not changed its sign.
 template <class Mask, class T>
-void reverse(StateOf<T>& state, const Mask& turns, const PointOf<T>& at, const DeviatorOf<T>& n) {
+void reverse(const SoilOf<T>& c, StateOf<T>& state, const Mask& turns, const PointOf<T>& at,
+             const DeviatorOf<T>& n) {
   StateOf<T> s = state;
-  s.alpha_in_p = s.alpha_in;
+  s.alpha_in_p = select(c.opensees_reversals > T(0.0), s.alpha_in, s.alpha_true);
   s.alpha_true = at.alpha;
   s.z_in = at.z;
   const T p = max(at.p, s.p_min), zp = norm(at.z) * p;
@@ -146,7 +147,7 @@ Trial<T> attempt(const SoilOf<T>& c, StateOf<T>& s, const PointOf<T>& at, const 
   const Rates<T> elastic = elastic_rates(c, start.G, step);
   const DeviatorOf<T> n = (at.s + elastic.s) - (at.p + elastic.p) * at.alpha;
   const auto turns = dot(at.alpha - s.alpha_true, n) < T(0.0);
-  if (any(turns)) reverse(s, turns, at, n);
+  if (any(turns)) reverse(c, s, turns, at, n);
 
   const T a = elastic_part(c.m, at, elastic);
   const auto stays = a >= T(1.0), some = a > T(0.0);

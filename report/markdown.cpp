@@ -109,8 +109,21 @@ std::string liquefaction(const ReportInputs& in, const ReportFacts& f) {
                      cell(zone.transfer_reason), elements, area_liquefied);
   out += zone_shares_markdown(f);
   Rows rows;
-  for (std::size_t w = 0; w < zone.window_names.size(); ++w)
-    rows.emplace_back(zone.window_names[w], number(zone.window_depth_max[w], 2, "m"));
+  const auto add_depths = [&rows, &zone](const std::string& rule,
+                                         const std::vector<double>& depth) {
+    for (std::size_t w = 0; w < depth.size(); ++w)
+      rows.emplace_back(zone.window_names[w] + rule, number(depth[w], 2, "m"));
+  };
+  add_depths(", up to the transfer", zone.window_depth_max);
+  add_depths(", where r_u passes the threshold between nodes", zone.window_depth_interpolated);
+  add_depths(", the lowest single node", zone.window_depth_any);
+  if (zone.transfer_frame >= 0) {
+    add_depths(fmt::format(", until strong shaking ends ({:.1f} s)", zone.strong_shaking_end),
+               zone.window_depth_strong);
+    if (is_set(zone.onset_time))
+      add_depths(fmt::format(", before the slide ({:.1f} s)", zone.onset_time),
+                 zone.window_depth_before_slide);
+  }
   if (!rows.empty()) out += table("window", "largest depth of liquefaction", rows);
   if (!zone.notes.empty()) out += "Notes on the zone:\n\n" + list(zone.notes);
   out += fmt::format("Shaking read from: {}. Out-of-plane stress: {}.\n\n",

@@ -51,16 +51,21 @@ std::string runout_csv(const std::vector<MpmSample>& samples, double toe) {
 
 std::string zone_csv(const ZoneHistory& h) {
   std::vector<std::pair<std::string, const std::vector<double>*>> columns{{"time_s", &h.time}};
-  validate(h.depth.size() == h.window_names.size() && h.depth_max.size() == h.window_names.size(),
+  validate(h.depth.size() == h.window_names.size() && h.depth_max.size() == h.window_names.size() &&
+               h.depth_any.size() == h.window_names.size() &&
+               h.depth_interpolated.size() == h.window_names.size(),
            "the zone's history has {} windows but {} depths (each window has one) rebuild the zone",
            h.window_names.size(), h.depth.size());
   for (std::size_t w = 0; w < h.window_names.size(); ++w) {
     const std::string name = column_name(h.window_names[w]);
     columns.emplace_back("depth_" + name + "_m", &h.depth[w]);
     columns.emplace_back("depth_max_" + name + "_m", &h.depth_max[w]);
+    columns.emplace_back("depth_any_node_" + name + "_m", &h.depth_any[w]);
+    columns.emplace_back("depth_interpolated_" + name + "_m", &h.depth_interpolated[w]);
   }
   columns.emplace_back("kinetic_energy_J_per_m", &h.kinetic_energy);
   columns.emplace_back("kinetic_energy_relative_J_per_m", &h.kinetic_energy_relative);
+  columns.emplace_back("sliding_energy_J_per_m", &h.sliding_energy);
   columns.emplace_back("distortion_gauss", &h.distortion_gauss);
   columns.emplace_back("distortion_centre", &h.distortion_centre);
   std::string out;

@@ -55,10 +55,12 @@ LiquefactionZone zone() {
   z.layer = {0, -1};
   z.lower_boundary = {{0.0, 1.0}, {2.0, 0.5}};
   z.window_names = z.history.window_names = {"crest", "pond"};
-  z.window_depth_max = {1.0, 2.0};
+  z.window_depth_max = z.window_depth_any = z.window_depth_interpolated = z.window_depth_strong =
+      z.window_depth_before_slide = {1.0, 2.0};
   z.history.time = {0.0, 1.0};
-  z.history.depth = z.history.depth_max = {{0, 1}, {0, 2}};
-  z.history.kinetic_energy = z.history.kinetic_energy_relative = {0, 10};
+  z.history.depth = z.history.depth_max = z.history.depth_any = z.history.depth_interpolated = {
+      {0, 1}, {0, 2}};
+  z.history.kinetic_energy = z.history.sliding_energy = z.history.kinetic_energy_relative = {0, 10};
   z.history.distortion_gauss = z.history.distortion_centre = {1, 0.9};
   z.notes = {"a note"};
   return z;

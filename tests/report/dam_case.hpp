@@ -103,6 +103,10 @@ inline LiquefactionZone zone(const QuadMesh& m, bool shaken) {
   z.lower_boundary = {{-140.0, 12.0}, {-20.0, 12.0}, {14.0, 9.0}};
   z.window_names = {"crest", "pond"};
   z.window_depth_max = {14.0, 18.0};
+  z.window_depth_any = {20.0, 21.0};
+  z.window_depth_interpolated = {14.5, 18.5};
+  z.window_depth_strong = {9.0, 11.0};
+  z.window_depth_before_slide = {12.0, 13.0};
   if (!shaken) return z;
   ZoneHistory& h = z.history;
   h.window_names = z.window_names;
@@ -115,10 +119,14 @@ inline LiquefactionZone zone(const QuadMesh& m, bool shaken) {
       h.depth_max[w].push_back(5.0 * i + w);
     }
     h.kinetic_energy.push_back(2e5 * i);
+    h.sliding_energy.push_back(1e4 * i);
     h.kinetic_energy_relative.push_back(1e5 * i);
     h.distortion_gauss.push_back(1.0 - 0.01 * i);
     h.distortion_centre.push_back(1.0);
   }
+  h.depth_any = h.depth_interpolated = h.depth;
+  z.strong_shaking_end = 1.0;
+  z.onset_time = 2.0;
   z.notes = {"3 nodes near the pond surface were skipped"};
   return z;
 }

@@ -36,14 +36,19 @@ TEST_CASE("zone.csv has a depth and its maximum per window") {
   h.time = {0.0, 1.5};
   h.depth = {{0.0, 4.0}};
   h.depth_max = {{0.0, 6.0}};
+  h.depth_any = {{0.0, 7.0}};
+  h.depth_interpolated = {{0.0, 4.5}};
+  h.sliding_energy = {0.0, 0.125};
   h.kinetic_energy = {1.0, 2.0};
   h.kinetic_energy_relative = {0.5, 0.25};
   h.distortion_gauss = {1.0, 0.97};
   h.distortion_centre = {1.0, 0.99};
   CHECK(zone_csv(h) ==
-        "time_s,depth_east_pond__low_m,depth_max_east_pond__low_m,kinetic_energy_J_per_m,"
-        "kinetic_energy_relative_J_per_m,distortion_gauss,distortion_centre\n"
-        "0,0,0,1,0.5,1,1\n1.5,4,6,2,0.25,0.97,0.99\n");
+        "time_s,depth_east_pond__low_m,depth_max_east_pond__low_m,"
+        "depth_any_node_east_pond__low_m,depth_interpolated_east_pond__low_m,"
+        "kinetic_energy_J_per_m,kinetic_energy_relative_J_per_m,sliding_energy_J_per_m,"
+        "distortion_gauss,distortion_centre\n"
+        "0,0,0,0,0,1,0.5,0,1,1\n1.5,4,6,7,4.5,2,0.25,0.125,0.97,0.99\n");
   h.distortion_gauss.pop_back();
   CHECK_THROWS_AS(zone_csv(h), InputError);
   h.distortion_gauss.push_back(0.97);

@@ -47,6 +47,8 @@ class Column {
     return find_zone(FemHistory(path_), config);
   }
 
+  [[nodiscard]] FemHistory history() const { return FemHistory(path_); }
+
   QuadMesh mesh = rectangle_mesh(10, 10, 1.0, 1.0, 1);
 
  private:
@@ -112,7 +114,11 @@ TEST_CASE("an imposed r_u gives its exact depth, zone and strength", "[transfer]
   CHECK_FALSE(is_set(zone.r_u_node[120]));
   CHECK(zone.r_u_node[5 * 11] == Approx(0.8));
   CHECK(zone.notes.front().substr(0, 8) == "11 nodes");
-  for (const Vec2& p : zone.lower_boundary) CHECK(p[1] == 4.0);
+  // r_u falls from 0.8 to 0.3 in a metre: through 0.7 at a fifth of it.
+  for (const Vec2& p : zone.lower_boundary) CHECK(p[1] == Approx(3.8));
+  for (const std::vector<double>* depth : {&zone.window_depth_any, &zone.window_depth_strong})
+    CHECK((*depth)[0] == 6.0);
+  CHECK(zone.window_depth_interpolated[0] == Approx(6.2));
 }
 
 TEST_CASE("soil above liquefied soil can keep its strength", "[transfer]") {
@@ -137,7 +143,7 @@ TEST_CASE("the zone of the moment can be asked for", "[transfer]") {
   ZoneConfig config = column_config();
   config.r_u.over_time = RuOverTime::instantaneous;
   const LiquefactionZone zone = Column({7.0, 4.0, 6.0}).find(config);
-  for (const Vec2& p : zone.lower_boundary) CHECK(p[1] == 6.0);
+  for (const Vec2& p : zone.lower_boundary) CHECK(p[1] == Approx(5.8));
   CHECK(std::ranges::count(zone.liquefied, 1) == 40);
 }
 
@@ -252,6 +258,32 @@ TEST_CASE("settings that do not fit the mesh or each other are refused", "[trans
                     Catch::Contains("pond_surface"));
   CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.transfer = {.when = TransferWhen::at, .at = 7.0}; }),
                     Catch::Contains("outside the record"));
+}
+
+TEST_CASE("a single node decides the depth of single nodes only, and r_u above 1.2 is named",
+          "[transfer]") {
+  const Column column({7.0});
+  const auto path =
+      std::filesystem::temp_directory_path() / fmt::format("flowslide-zone-lone-{}.h5", getpid());
+  const FemHistory calm = column.history();
+  FemHistoryWriter writer(path, column.mesh, {});
+  writer.set_gravity(calm.gravity());
+  FemFrame frame = calm.frame(0);
+  frame.pore_pressure[3 * 11 + 1] += 1.5 * kBuoyant * 7.0;  // at (1, 3), 0.3 before
+  writer.append(frame);
+  writer.finish();
+  const LiquefactionZone zone = find_zone(FemHistory(path), column_config());
+  std::filesystem::remove(path);
+  CHECK(zone.window_depth_any[0] == 7.0);
+  CHECK(zone.window_depth_max[0] == 3.0);
+  CHECK(zone.window_depth_interpolated[0] == Approx(3.2));
+  CHECK(zone.window_depth_any[1] == 3.0);
+  const auto named = std::ranges::find_if(
+      zone.notes, [](const std::string& n) { return n.starts_with("r_u reaches 1.8 at node 35"); });
+  CHECK(named != zone.notes.end());
+  const LiquefactionZone quiet = column.find(column_config());
+  CHECK(std::ranges::none_of(quiet.notes,
+                             [](const std::string& n) { return n.starts_with("r_u reaches"); }));
 }
 
 TEST_CASE("Without windows the depth is that of the whole liquefiable soil", "[transfer]") {

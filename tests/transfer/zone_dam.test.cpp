@@ -77,6 +77,16 @@ TEST_CASE("the dam of the fixture liquefies as its README says", "[transfer]") {
   CHECK(h.distortion_gauss.back() > 0.99);
   CHECK(h.distortion_gauss.back() < 1.0);
   CHECK(zone.transfer_frame == 30);
+  // The slide stands out from the shaking by ten; its record ends before it has lasted for long.
+  CHECK(h.sliding_energy[sample_near(h, 5.75)] == Approx(33e3).epsilon(0.02));
+  CHECK(h.sliding_energy[sample_near(h, 7.0)] == Approx(360e3).epsilon(0.02));
+  CHECK_THAT(zone.transfer_reason, Catch::Contains("exceeds 2 times its pre-failure envelope from "
+                                                   "6.26 s to the end of the record"));
+  // OpenSees' pore pressures have a saw-tooth; single nodes cross the threshold first.
+  CHECK(std::ranges::any_of(
+      zone.notes, [](const std::string& n) { return n.starts_with("r_u reaches 4 at node 302"); }));
+  CHECK(h.depth_any[0][sample_near(h, 5.75)] > h.depth[0][sample_near(h, 5.75)]);
+
   // The tailings carry about 8.5 kPa per metre below the pond.
   const QuadMesh& mesh = history.mesh();
   for (std::size_t e = 0; e < mesh.num_elements(); ++e) {

@@ -25,12 +25,16 @@ struct Schema<RuConfig> {
 
 template <>
 struct Schema<ColumnConfig> {
-  static constexpr std::string_view doc = "Columns in which the automatic zone is found.";
+  static constexpr std::string_view doc =
+      "Columns in which depths and the automatic zone are found.";
   static void describe(FieldVisitor& v, ColumnConfig& c) {
     v.quantity("width", c.width, Dim::length, {.above = 0.0},
                "width; the median width of the liquefiable elements if left out");
     v.integer("neighbours", c.neighbours, {.min = 0, .max = 8},
               "a liquefied node counts if at least so many of its mesh neighbours have liquefied");
+    v.flag("interpolate", c.interpolate,
+           "the zone ends where r_u falls through the threshold between two nodes of a column; "
+           "false: at the lowest liquefied node");
   }
 };
 
@@ -52,6 +56,7 @@ void Schema<TransferRuleConfig>::describe(FieldVisitor& v, TransferRuleConfig& c
   v.choice("depth_coordinates", c.depth_coordinates, kDepthCoordinates,
            "depth of a node where it was, or where it is");
   v.group("r_u", c.r_u, "excess pore-pressure ratio");
+  v.group("columns", c.columns, "columns in which depths and the automatic zone are found");
   v.integers("base_nodes", c.base_nodes,
              "node tags whose mean velocity is that of the base; the lowest nodes if left out");
   v.group("automatic", c.transfer.automatic, "criteria of the automatic transfer time");
@@ -68,7 +73,6 @@ void Schema<ZoneConfig>::describe(FieldVisitor& v, ZoneConfig& c) {
          "lower boundary for zone: line, x rising; level to the left, its last segment goes on");
   v.rows("polygon", c.polygon, kPoint, "corners for zone: polygon, in order");
   v.group("strength", c.strength, "residual strength of the liquefied soil");
-  v.group("columns", c.columns, "columns in which the automatic zone is found");
 }
 
 namespace {

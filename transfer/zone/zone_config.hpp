@@ -43,6 +43,7 @@ struct RuConfig {
 struct ColumnConfig {
   std::optional<double> width;  ///< [m]; median width of the liquefiable elements if left out
   int neighbours = 1;           ///< liquefied mesh neighbours that a liquefied node needs to count
+  bool interpolate = true;      ///< bottom of the zone where r_u passes the threshold, or at nodes
 };
 
 /// What decides the transfer time.
@@ -53,6 +54,7 @@ struct TransferRuleConfig {
   DepthWindows windows;  ///< see windows_or_all
   DepthCoordinates depth_coordinates = DepthCoordinates::original;
   RuConfig r_u;
+  ColumnConfig columns;
   std::vector<int> base_nodes;                 ///< node tags; the lowest nodes if empty
   TransferTimeConfig transfer;
 };
@@ -64,7 +66,6 @@ struct ZoneConfig : TransferRuleConfig {
   ZoneExtent zone = ZoneExtent::automatic;
   std::vector<std::vector<double>> line;     ///< points [x, y] for zone: line [m]
   std::vector<std::vector<double>> polygon;  ///< corners [x, y] for zone: polygon [m]
-  ColumnConfig columns;
   StrengthConfig strength;
 };
 

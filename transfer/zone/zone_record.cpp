@@ -98,12 +98,16 @@ ZoneRecorder::ZoneRecorder(const QuadMesh& mesh, const std::vector<HistoryMateri
     : mesh_(mesh),
       config_(config),
       parts_(zone_parts(mesh, materials, config)),
-      mass_(element_masses(mesh, parts_.section, element_densities(mesh, materials))) {
+      mass_(element_masses(mesh, parts_.section, element_densities(mesh, materials))),
+      adjacent_(soil_neighbours(mesh, parts_.soil)),
+      columns_(soil_columns(mesh, parts_.soil, config.columns.width)),
+      sliding_(config.transfer.automatic.smoothing) {
   config_.windows = windows_or_all(config);
   reference_ = r_u_reference(mesh_, gravity, parts_.in_soil, config_.r_u);
   for (const auto& [name, window] : config_.windows) history_.window_names.push_back(name);
-  history_.depth.resize(history_.window_names.size());
-  history_.depth_max.resize(history_.window_names.size());
+  for (auto* table :
+       {&history_.depth, &history_.depth_max, &history_.depth_any, &history_.depth_interpolated})
+    table->resize(history_.window_names.size());
 }
 
 void ZoneRecorder::check_finite(const FemFrame& frame) const {
@@ -124,6 +128,31 @@ void ZoneRecorder::check_finite(const FemFrame& frame) const {
   }
 }
 
+void ZoneRecorder::append_depths(std::span<const Vec2> positions, std::span<const double> r_u) {
+  const double threshold = config_.r_u.threshold;
+  const std::vector<std::uint8_t> counted =
+      confirmed_nodes(adjacent_, r_u, threshold, config_.columns.neighbours);
+  std::size_t w = 0;
+  for (const auto& [name, window] : config_.windows) {
+    const double depth =
+        depth_of_liquefaction(window, config_.pond_surface, positions, r_u, threshold, counted);
+    history_.depth_max[w].push_back(
+        history_.depth[w].empty() ? depth : std::max(depth, history_.depth_max[w].back()));
+    history_.depth[w].push_back(depth);
+    history_.depth_any[w].push_back(
+        depth_of_liquefaction(window, config_.pond_surface, positions, r_u, threshold));
+    std::vector<std::uint8_t> inside = counted;
+    for (std::size_t n = 0; n < inside.size(); ++n)
+      if (!window.contains(positions[n][0])) inside[n] = 0;
+    double between = 0.0;
+    for (const SoilColumn& column : columns_)
+      if (const auto y = liquefied_bottom(column, positions, r_u, inside, threshold))
+        between = std::max(between, config_.pond_surface - *y);
+    history_.depth_interpolated[w].push_back(between);
+    ++w;
+  }
+}
+
 void ZoneRecorder::append(const FemFrame& frame) {
   check_finite(frame);
   std::vector<Vec2> positions = mesh_.nodes;
@@ -131,18 +160,11 @@ void ZoneRecorder::append(const FemFrame& frame) {
     for (std::size_t k = 0; k < 2; ++k) positions[n][k] += frame.displacement[n][k];
   }
   const std::vector<double> r_u = r_u_at_nodes(mesh_, reference_, frame.pore_pressure, frame.time);
-  const std::vector<Vec2>& where =
-      config_.depth_coordinates == DepthCoordinates::original ? mesh_.nodes : positions;
+  for (std::size_t n = 0; n < r_u.size(); ++n)
+    if (r_u[n] > largest_.value) largest_ = {r_u[n], frame.time, static_cast<std::int32_t>(n)};
   history_.time.push_back(frame.time);
-  std::size_t w = 0;
-  for (const auto& [name, window] : config_.windows) {
-    const double depth =
-        depth_of_liquefaction(window, config_.pond_surface, where, r_u, config_.r_u.threshold);
-    history_.depth_max[w].push_back(
-        history_.depth[w].empty() ? depth : std::max(depth, history_.depth_max[w].back()));
-    history_.depth[w].push_back(depth);
-    ++w;
-  }
+  append_depths(config_.depth_coordinates == DepthCoordinates::original ? mesh_.nodes : positions,
+                r_u);
   const KineticEnergy energy =
       kinetic_energy(mesh_, parts_.section, mass_, frame.velocity, parts_.base_nodes);
   history_.kinetic_energy.push_back(energy.absolute);
@@ -151,7 +173,27 @@ void ZoneRecorder::append(const FemFrame& frame) {
                                   config_.transfer.automatic.strain_threshold);
   history_.distortion_gauss.push_back(q.gauss);
   history_.distortion_centre.push_back(q.centre);
-  base_energy_.push_back(energy.base);
+  const SlidingEnergy::Values sliding = sliding_.append(frame.time, mesh_, parts_.section, mass_,
+                                                        frame.displacement, parts_.base_nodes);
+  history_.sliding_energy.push_back(sliding.section);
+  base_kinetic_.push_back(energy.base);
+  base_energy_.push_back(config_.transfer.automatic.energy == EnergyFrame::sliding ? sliding.base
+                                                                                   : energy.base);
+}
+
+std::optional<std::size_t> ZoneRecorder::onset() const {
+  const auto found = find_onset(config_.transfer.automatic, history_, base_energy_);
+  return found ? std::optional(found->sample) : std::nullopt;
+}
+
+std::size_t ZoneRecorder::strong_shaking_end() const {
+  std::vector<double> sum(base_kinetic_.size());
+  for (std::size_t i = 1; i < sum.size(); ++i)
+    sum[i] = sum[i - 1] + 0.5 * (base_kinetic_[i] + base_kinetic_[i - 1]) *
+                              (history_.time[i] - history_.time[i - 1]);
+  std::size_t i = 0;
+  while (i + 1 < sum.size() && sum[i] < 0.95 * sum.back()) ++i;
+  return i;
 }
 
 TransferChoice ZoneRecorder::choose() const {
