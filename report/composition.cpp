@@ -29,8 +29,7 @@ std::vector<FrontShare> shares_beyond(const ParticleSet& p, const FinalState& en
 
 }  // namespace
 
-Composition composition(const ParticleSet& p, const FinalState& end, double toe,
-                        const ReportConfig& config) {
+Composition composition(const ParticleSet& p, const FinalState& end, double toe) {
   static_assert(kFrontShares[2] == kForemost, "the foremost 1 % lie beyond the front of 1 %");
   Composition c;
   std::vector<Place> counted, up, liquefied;
@@ -39,8 +38,7 @@ Composition composition(const ParticleSet& p, const FinalState& end, double toe,
     const double x = end.position[i][0];
     counted.push_back({x, p.mass[i]});
     up.push_back({end.position[i][1], p.mass[i]});
-    const std::string& name = p.materials[static_cast<std::size_t>(p.material[i])].name;
-    if (name.starts_with(config.liquefied)) liquefied.push_back({x, p.mass[i]});
+    if (p.materials[static_cast<std::size_t>(p.material[i])].liquefied) liquefied.push_back({x, p.mass[i]});
     if (is_set(toe) && x > toe) c.mass_past_toe += p.mass[i];
   }
   if (counted.empty()) return c;

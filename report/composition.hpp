@@ -28,7 +28,6 @@ struct Composition {
 };
 
 /// @param toe x [m]; unset: no mass past it
-Composition composition(const ParticleSet& particles, const FinalState& end, double toe,
-                        const ReportConfig& config);
+Composition composition(const ParticleSet& particles, const FinalState& end, double toe);
 
 }  // namespace flowslide

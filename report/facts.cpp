@@ -200,7 +200,7 @@ ReportFacts compute_facts(const LiquefactionZone& zone, const MpmHistory& flow,
   add_volumes(f, p, flow.frame(flow.num_frames() - 1), end, config);
   add_movements(f, p, end, config);
   add_rest(f, samples, flow.rest());
-  f.composition = composition(p, end, f.toe, config);
+  f.composition = composition(p, end, f.toe);
   f.outcome = outcome_facts(p, end, config);
   add_warnings(f, p, end, samples, flow.rest(), config);
   return f;

@@ -18,7 +18,10 @@ struct Block {
 
   Block(std::array<double, 2> shake, std::array<double, 2> flow, double moved = 1.0) {
     p.materials = {{.name = "embankment", .law = "mohr_coulomb", .parameters = {}},
-                   {.name = "liquefied 1", .law = "residual_strength", .parameters = {}}};
+                   {.name = "liquefied 1",
+                    .law = "residual_strength",
+                    .parameters = {},
+                    .liquefied = true}};
     for (int i = 0; i < 40; ++i)
       for (int j = 0; j < 20; ++j) {
         const bool moves = j >= 10;
@@ -96,7 +99,7 @@ TEST_CASE("Three of eight hundred points do not decide") {
 
 TEST_CASE("The foremost 1 % are told by material, and liquefied soil apart") {
   const Block b({0.0, 0.0}, {5.0, 0.0});  // the embankment leads
-  const Composition c = composition(b.p, b.end, 30.0, {});
+  const Composition c = composition(b.p, b.end, 30.0);
   REQUIRE(c.foremost.size() == 1);
   CHECK(c.foremost[0].material == "embankment");
   CHECK(c.foremost[0].share == 1.0);
@@ -105,9 +108,9 @@ TEST_CASE("The foremost 1 % are told by material, and liquefied soil apart") {
   CHECK(c.liquefied_fronts.fifth == Approx(24.5));
   CHECK(c.mass_past_toe == Approx(2000.0 * (10 * 10 + 10 * 15)));
   CHECK(c.height == Approx(19.5));
-  ReportConfig none;
-  none.liquefied = "nothing is named so";
-  CHECK_FALSE(composition(b.p, b.end, 30.0, none).liquefied);
+  Block none = b;
+  for (MaterialSpec& m : none.p.materials) m.liquefied = false;
+  CHECK_FALSE(composition(none.p, none.end, 30.0).liquefied);
 }
 
 TEST_CASE("The area with residual strength is told by r_u") {

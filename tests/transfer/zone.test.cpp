@@ -266,7 +266,7 @@ TEST_CASE("a single node decides the depth of single nodes only, and r_u above 1
   const auto path =
       std::filesystem::temp_directory_path() / fmt::format("flowslide-zone-lone-{}.h5", getpid());
   const FemHistory calm = column.history();
-  FemHistoryWriter writer(path, column.mesh, {});
+  FemHistoryWriter writer(path, column.mesh, {{"sand", 1, 2000.0}, {"rock", 2, 1500.0}}, {});
   writer.set_gravity(calm.gravity());
   FemFrame frame = calm.frame(0);
   frame.pore_pressure[3 * 11 + 1] += 1.5 * kBuoyant * 7.0;  // at (1, 3), 0.3 before
