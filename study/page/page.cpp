@@ -151,7 +151,7 @@ class Writer {
   void scatter_figure(const Relation& r, std::size_t result) {
     ScatterChart chart{.x_label = readable(table_, r.x), .y_label = readable(table_, r.y),
                        .dots = {}, .series = {}, .series_label = {}, .ramp = {}};
-    const Column &x = *table_.find(r.x), &y = *table_.find(r.y), *by = colour(r.x);
+    const Column &x = *table_.find(r.x), *by = colour(r.x);
     for (const std::size_t g : f_.groups) {
       const auto& rows = f_.repeats.groups[g];
       const std::size_t row = rows[0];
