@@ -52,8 +52,8 @@ struct Schema<ReportConfig> {
     v.quantity("moved", c.moved, Dim::length, {.above = 0.0},
                "displacement from which a material point counts as failed");
     v.quantity("stood", c.stood, Dim::length, {.above = 0.0},
-               "the section stood if less than 0.5 % of its mass moved farther, it deformed if less "
-               "moved farther than `moved`");
+               "the section stood if less than 0.5 % of its mass moved farther, it deformed if "
+               "less moved farther than `moved`");
     v.quantity("flow_reach", c.flow_reach, Dim::none, {.above = 0.0},
                "it flowed if 0.5 % of the mass moved farther after the transfer than this many "
                "heights of the section; else it slid");

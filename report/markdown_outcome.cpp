@@ -12,30 +12,31 @@ namespace {
 std::string headline(const ReportFacts& f, const ReportConfig& c) {
   const OutcomeFacts& o = f.outcome;
   if (o.outcome == Outcome::stood)
-    return fmt::format("**The section stood.** Less than 0.5 % of its mass moved by more than {:g} m. ",
-                       c.stood);
+    return fmt::format(
+        "**The section stood.** Less than 0.5 % of its mass moved by more than {:g} m. ", c.stood);
   if (o.outcome == Outcome::deformed)
     return fmt::format(
-        "**The section deformed and held:** all but 0.5 % of its mass moved by less than {:.2f} m. ",
+        "**The section deformed and held:** all but 0.5 % of its mass moved by less than {:.2f} "
+        "m. ",
         o.largest.both);
   const std::string what = fmt::format("The section {}", word(o.outcome));
   if (f.runout > 0.0)
-    return fmt::format("**{}, passed the toe and ran out {:.1f} m** (front at x = {:.1f} m). ", what,
-                       f.runout, f.front);
+    return fmt::format("**{}, passed the toe and ran out {:.1f} m** (front at x = {:.1f} m). ",
+                       what, f.runout, f.front);
   if (!is_set(f.toe))
     return fmt::format("**{}; without a toe there is no runout** (front at x = {:.1f} m). ", what,
                        f.front);
   return fmt::format(
-      "**{} but its front did not pass the toe: the runout is 0 m** (front at x = {:.1f} m, {:.1f} m "
-      "short of the toe). ",
+      "**{} but its front did not pass the toe: the runout is 0 m** (front at x = {:.1f} m, {:.1f} "
+      "m short of the toe). ",
       what, f.front, f.toe - f.front);
 }
 
 std::string crest_sentence(const CrestFacts& crest) {
   if (!is_set(crest.level)) return "";
   std::string out = fmt::format(
-      "Its crest moved {:.2f} m outward and settled {:.2f} m, of which {:.2f} and {:.2f} m up to the "
-      "transfer",
+      "Its crest moved {:.2f} m outward and settled {:.2f} m, of which {:.2f} and {:.2f} m up to "
+      "the transfer",
       crest.outward.both, crest.settlement.both, crest.outward.shaking, crest.settlement.shaking);
   if (is_set(crest.freeboard))
     out += crest.freeboard > 0.0
@@ -121,8 +122,8 @@ std::string zone_shares_markdown(const ReportFacts& f) {
       "| r_u at the transfer | share of the area with residual strength |\n|---|---:|\n";
   double from = 0.0;
   for (const auto& [below, share] : f.zone_shares) {
-    out += std::isfinite(below) ? fmt::format("| {:g} to {:g} | {:.1f} % |\n", from, below, 100.0 * share)
-                                : fmt::format("| {:g} and more | {:.1f} % |\n", from, 100.0 * share);
+    const std::string to = std::isfinite(below) ? fmt::format("to {:g}", below) : "and more";
+    out += fmt::format("| {:g} {} | {:.1f} % |\n", from, to, 100.0 * share);
     from = below;
   }
   return out + "\n";

@@ -41,8 +41,8 @@ struct OutcomeFacts {
 OutcomeFacts outcome_facts(const ParticleSet& particles, const FinalState& end,
                            const ReportConfig& config);
 
-/// Shares of the area that gets residual strength, by the pore-pressure ratio of the elements at the
-/// transfer: upper end of the class [-] (infinite: the last) and share. Empty without shaking.
+/// Shares of the area that gets residual strength, by the pore-pressure ratio of the elements at
+/// the transfer: upper end of the class [-] (infinite: the last) and share. Empty without shaking.
 std::vector<std::pair<double, double>> zone_shares(const QuadMesh& mesh,
                                                    const LiquefactionZone& zone);
 

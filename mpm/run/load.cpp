@@ -14,8 +14,9 @@ constexpr double kAverageRatio = 4.6;
 /// Depth over which a traction is handed to the points [cells]: whole rows of any lattice.
 constexpr double kTractionDepth = 2.0;
 
-/// Whether pressure carries shear. Such soil keeps the pressure of its points: its deviator is bounded
-/// by that, and with the mean over a span as acting pressure it would flow where it can stand.
+/// Whether pressure carries shear. Such soil keeps the pressure of its points: its deviator is
+/// bounded by that, and with the mean over a span as acting pressure it would flow where it can
+/// stand.
 template <class M>
 bool frictional(const typename M::Params& p) {
   if constexpr (requires { p.mu_static; })

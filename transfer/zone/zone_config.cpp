@@ -67,8 +67,8 @@ void Schema<ZoneConfig>::describe(FieldVisitor& v, ZoneConfig& c) {
       {{"x", Dim::length}, {"y", Dim::length}}};
   Schema<TransferRuleConfig>::describe(v, c);
   v.choice("zone", c.zone, kZoneExtents,
-           "found from r_u, all of the liquefiable soil, above a line, inside a polygon, or of what is "
-           "found from r_u only the elements that have liquefied themselves");
+           "found from r_u, all of the liquefiable soil, above a line, inside a polygon, or of "
+           "what is found from r_u only the elements that have liquefied themselves");
   v.rows("line", c.line, kPoint,
          "lower boundary for zone: line, x rising; level to the left, its last segment goes on");
   v.rows("polygon", c.polygon, kPoint, "corners for zone: polygon, in order");

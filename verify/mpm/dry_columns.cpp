@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-/// Dry columns of grains in the plane, in a narrow channel and round, against the fronts and heights
-/// that experiments left: docs/theory/verification-mpm.md, section Dry columns.
+/// Dry columns of grains in the plane, in a narrow channel and round, against the fronts and
+/// heights that experiments left: docs/theory/verification-mpm.md, section Dry columns.
 namespace flowslide::mpm {
 namespace {
 
