@@ -3,7 +3,7 @@
 #include "tests/bits/scenes.hpp"
 #include "tests/mpm/scene.hpp"
 
-namespace flowslide::bits {
+namespace flowslide::same_bits {
 namespace {
 
 using namespace mpm;
@@ -155,4 +155,4 @@ Lines schemes(int threads) {
   return lines;
 }
 
-}  // namespace flowslide::bits
+}  // namespace flowslide::same_bits
