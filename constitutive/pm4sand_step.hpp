@@ -134,7 +134,6 @@ struct Trial {
   T error;                      ///< of the stress [Pa]
   T size;                       ///< what it is compared with [Pa]
   T Mb;                         ///< bounding ratio at the end
-  decltype(T() < T()) plastic;  ///< the end lies on the yield surface
 };
 
 /// The sub-step `step` from `at`; a reversal of loading goes into `s`. `forced`: this step is taken
@@ -161,7 +160,7 @@ Trial<T> attempt(const SoilOf<T>& c, StateOf<T>& s, const PointOf<T>& at, const 
     elastic_error = a * a * abs(elastic.p) * stress_norm(elastic.p, elastic.s) / (2.0 * start.p);
   }
   Trial<T> r{
-      from, select(from.p > T(0.0) || forced, elastic_error, size), size, start.surfaces.Mb, {}};
+      from, select(from.p > T(0.0) || forced, elastic_error, size), size, start.surfaces.Mb};
   if (all(stays)) return r;
 
   const StrainOf<T> rest{(1.0 - a) * step.volumetric, (1.0 - a) * step.deviator};
@@ -182,7 +181,6 @@ Trial<T> attempt(const SoilOf<T>& c, StateOf<T>& s, const PointOf<T>& at, const 
   r.end = select(stays, from, select(holds, end, collapsed));
   r.error = select(stays, r.error, select(holds, error, size));
   r.Mb = select(!stays && holds, at_middle.surfaces.Mb, r.Mb);
-  r.plastic = !stays && holds && r2.plastic;
   return r;
 }
 
@@ -197,7 +195,7 @@ auto settle(const SoilOf<T>& c, const StateOf<T>& s, Trial<T>& trial) {
   const DeviatorOf<T> offset = end.s - end.p * end.alpha;
   const T radius = kRootHalf * c.m * end.p, radius2 = radius * radius;
   const T length2 = dot(offset, offset);
-  const auto drifts = length2 > radius2 || (trial.plastic && 4.0 * length2 > radius2);
+  const auto drifts = length2 > radius2;
   if (any(drifts)) {
     const T length = sqrt(length2);
     end.alpha =

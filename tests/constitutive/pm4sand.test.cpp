@@ -292,5 +292,7 @@ TEST_CASE("PM4Sand: without a static shear the rules of reversal are one", "[pm4
   PM4Sand::Params p = pm4sand_tailings();
   const Stress<2> a = after_cycles(p, 5e-4, 6, 5e-6);
   p.reversals = PM4Sand::Reversals::opensees;
-  CHECK(after_cycles(p, 5e-4, 6, 5e-6) == a);
+  const Stress<2> b = after_cycles(p, 5e-4, 6, 5e-6);
+  // to rounding: the distances are the same sums in another order
+  for (int i = 0; i < 4; ++i) CHECK(b[i] == Approx(a[i]).epsilon(1e-9));
 }
