@@ -74,7 +74,7 @@ TEST_CASE("all settings of transfer.zone may stand under stop_at_transfer", "[wo
     CAPTURE(key);
     CHECK(problem<StopAtTransferConfig>(key + ": {}").find("unknown key") == std::string::npos);
   }
-  CHECK_THAT(problem<StopAtTransferConfig>("stength: {}"), Contains("unknown key"));  // control
+  CHECK_THAT(problem<StopAtTransferConfig>("colour: {}"), Contains("unknown key"));  // control
 }
 
 TEST_CASE("the shipped workflow says once what decides two stages", "[workflows]") {
