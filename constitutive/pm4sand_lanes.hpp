@@ -87,7 +87,7 @@ template <class T>
   return Outcome<decltype(last)>{taken, taken && low, r.done >= T(1.0)};
 }
 
-/// Lane `lane` of a struct of T, a struct of double, in both directions.
+/// Lane `lane` of a struct of T, a struct of double: reads and writes it.
 template <template <class> class Struct, class T>
 [[gnu::always_inline]] inline void get_lane(Struct<double>& to, const Struct<T>& from, int lane) {
   constexpr std::size_t size = sizeof(double), n = sizeof(Struct<double>) / size;

@@ -9,7 +9,6 @@ template <class T>
 struct Rates {
   T p = 0.0;
   DeviatorOf<T> s, alpha, z;
-  decltype(T() < T()) plastic{};
 };
 
 template <class T>
@@ -30,7 +29,7 @@ Rates<T> rates(const SoilOf<T>& c, const StateOf<T>& s, const History<T>& h, con
   const T driving = 2.0 * G * dot(w.n, step.deviator) - n_r * K * step.volumetric;
   const T elastic = 2.0 * G - K * w.D * n_r;
   T L = driving / (w.Kp + elastic);
-  r.plastic = L > T(0.0);
+  const auto plastic = L > T(0.0);
   // Near the bounding surface the pull on the back-stress ratio is too stiff for explicit steps.
   // Along n it ends at the image; across n it may turn the loading direction, which changes by
   // d alpha/(m/sqrt(2)), no farther than onto alpha.
@@ -42,10 +41,10 @@ Rates<T> rates(const SoilOf<T>& c, const StateOf<T>& s, const History<T>& h, con
   if (any(far)) across = select(far, farthest / sqrt(max(alpha2, m2)), pulled);
   const auto at_image = along >= T(1.0) && w.Kp > T(0.0);
   if (any(at_image)) L = select(at_image, max(L, (driving - w.b_n * l.p) / elastic), L);
-  r.p = select(r.plastic, r.p - L * K * w.D, r.p);
-  r.s = select(r.plastic, r.s - (2.0 * G * L) * w.n, r.s);
-  r.alpha = select(r.plastic, (along * w.b_n) * w.n + across * w.b_side, r.alpha);
-  const auto grows = r.plastic && w.beyond_dilatancy && w.D < T(0.0);
+  r.p = select(plastic, r.p - L * K * w.D, r.p);
+  r.s = select(plastic, r.s - (2.0 * G * L) * w.n, r.s);
+  r.alpha = select(plastic, (along * w.b_n) * w.n + across * w.b_side, r.alpha);
+  const auto grows = plastic && w.beyond_dilatancy && w.D < T(0.0);
   r.z = select(grows, (-h.fabric_rate * L) * (s.z_max * w.n + at.z), r.z);
   return r;
 }
@@ -131,9 +130,9 @@ T stress_norm(T p, const DeviatorOf<T>& s) {
 template <class T>
 struct Trial {
   PointOf<T> end;
-  T error;                      ///< of the stress [Pa]
-  T size;                       ///< what it is compared with [Pa]
-  T Mb;                         ///< bounding ratio at the end
+  T error;  ///< of the stress [Pa]
+  T size;   ///< what it is compared with [Pa]
+  T Mb;     ///< bounding ratio at the end
 };
 
 /// The sub-step `step` from `at`; a reversal of loading goes into `s`. `forced`: this step is taken
@@ -195,11 +194,11 @@ auto settle(const SoilOf<T>& c, const StateOf<T>& s, Trial<T>& trial) {
   const DeviatorOf<T> offset = end.s - end.p * end.alpha;
   const T radius = kRootHalf * c.m * end.p, radius2 = radius * radius;
   const T length2 = dot(offset, offset);
-  const auto drifts = length2 > radius2;
-  if (any(drifts)) {
+  const auto outside = length2 > radius2;
+  if (any(outside)) {
     const T length = sqrt(length2);
     end.alpha =
-        select(drifts, (1.0 / (length * end.p)) * (length * end.s - radius * offset), end.alpha);
+        select(outside, (1.0 / (length * end.p)) * (length * end.s - radius * offset), end.alpha);
   }
   const T q = max(end.p, s.p_min) * trial.Mb, q2 = 2.0 * dot(end.s, end.s);
   const auto beyond = q2 > q * q;

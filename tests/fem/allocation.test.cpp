@@ -43,17 +43,6 @@ Count implicit_step(double tolerance) {
 
 }  // namespace
 
-TEST_CASE("An explicit step does not allocate", "[fem]") {
-  Solver s = section_at_rest();
-  const auto shake = [&](int steps) {
-    for (int i = 0; i < steps; ++i) advance(s, {ground(s.state.time), ground(s.state.time + s.dt)});
-  };
-  shake(5);
-  const long before = allocations;
-  shake(40);
-  CHECK(allocations == before);
-}
-
 TEST_CASE("An explicit step of shaking allocates nothing", "[fem]") {
   Solver s = section_at_rest();
   const auto step = [&] {
@@ -66,7 +55,7 @@ TEST_CASE("An explicit step of shaking allocates nothing", "[fem]") {
 }
 
 TEST_CASE("An implicit step allocates for its matrix, not for its iterations", "[fem]") {
-  const Count loose = implicit_step(1e-2), tight = implicit_step(1e-7);
+  const Count loose = implicit_step(1e-2), tight = implicit_step(1e-5);
   CHECK(tight.iterations > loose.iterations + 2);
   CHECK(tight.allocations == loose.allocations);
 }
