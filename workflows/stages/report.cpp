@@ -26,7 +26,7 @@ std::vector<Headline> headlines(const ReportFacts& f) {
 struct ReportStage {
   static constexpr std::string_view name = "report.runout";
   static constexpr std::string_view doc = "Facts, figures, tables and ParaView files of a runout.";
-  static constexpr int version = 3;
+  static constexpr int version = 4;
   static constexpr bool checkpoints = false;
   static constexpr bool reads_warnings = true;
   using Config = ReportConfig;
