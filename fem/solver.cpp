@@ -30,7 +30,7 @@ void set_constants(Solver& s) {
   for (std::size_t i = 0; i < materials.size(); ++i)
     std::visit(
         [&]<class M>(const flowslide::Material<M>& law) {
-          std::get<LawConstants<M>>(s.laws).of[i] = mesh_constants<M>(law.params);
+          std::get<LawConstants<M>>(s.laws).of[i] = shaking_constants<M>(law.params);
         },
         materials[i].law);
 }
