@@ -7,7 +7,7 @@ namespace flowslide {
 namespace {
 
 // Strain increments and tolerance that are left out; docs/theory/pm4sand.md, "Tolerance". Mixed
-// steps of a single point are solved to 1e-5 of its stress.
+// steps of a single point are solved to 1e-5 of its stress, and implicit steps iterate.
 constexpr double kPointPrecision = 1e-5, kMeshPrecision = 1e-4;
 
 /// OpenSees' interpolation, which follows the authors' FLAC code rather than their manual.
@@ -113,7 +113,9 @@ Elasticity PM4Sand::elasticity(const Constants& c, const State& s,
                                const Stress<2>& sigma) noexcept {
   using namespace pm4sand;
   const PointOf<double> at{-0.5 * (sigma[0] + sigma[1]) - s.held_p,
-                           Deviator{-0.5 * (sigma[0] - sigma[1]), -sigma[3]} - s.held, {}, {}};
+                           Deviator{-0.5 * (sigma[0] - sigma[1]), -sigma[3]} - s.held,
+                           {},
+                           {}};
   const double G = local<double>(c, s, stiffening<double>(c, s), at).G;
   return {c.bulk_ratio * G, G};
 }
@@ -157,8 +159,8 @@ void Schema<PM4Sand::Params>::describe(FieldVisitor& v, PM4Sand::Params& p) {
   v.quantity("p_sedo", p.p_sedo, Dim::stress, positive,
              "mean stress up to which the modulus is lowered after shaking; left out: P_atm/5");
   v.quantity("max_strain_increment", p.max_strain_increment, Dim::none, {.min = 1e-8, .max = 1.0},
-             "largest strain component of a sub-step; left out: 1e-4 in a mesh, 1e-5 for a single "
-             "point");
+             "largest strain component of a sub-step; left out: 1e-4 in explicit steps of a mesh, "
+             "else 1e-5");
   v.choice("reversals", p.reversals, PM4Sand::reversals_names,
            "what small cycles about a shear stress remember: the distance from the last reversal "
            "until the one before is passed, or the rule as OpenSees has it");

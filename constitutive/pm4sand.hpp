@@ -104,8 +104,8 @@ struct PM4Sand {
     double m = 0.01;                     ///< size of the yield surface
     std::optional<double> Fsed_min;      ///< unset: min(0.99, 0.03 exp(2.6 Dr))
     std::optional<double> p_sedo;        ///< [Pa]; unset: P_atm/5
-    /// Largest strain component of a sub-step, and its allowed relative stress error. Unset: 1e-5
-    /// for a point by itself, 1e-4 in a mesh.
+    /// Largest strain component of a sub-step, and its allowed relative stress error. Unset: 1e-4
+    /// in explicit steps of a mesh, else 1e-5.
     std::optional<double> max_strain_increment, tolerance;
     Reversals reversals = Reversals::published;
   };
@@ -135,9 +135,9 @@ struct PM4Sand {
     State state;
   };
 
-  /// Of a point by itself. Throws InputError for relations that ranges cannot express.
+  /// Throws InputError for relations that ranges cannot express.
   static Constants constants(const Params& p);
-  /// Of a point of a mesh, whose sub-steps may be coarser.
+  /// For explicit steps of a mesh, whose sub-steps may be coarser.
   static Constants mesh_constants(const Params& p);
 
   /// The elastic stage of gravity: Hooke's law with G = G0 P_atm at every pressure. The Poisson's

@@ -31,7 +31,7 @@ typename M::Constants shaking_constants(const typename M::Params& p) {
     return M::constants(p, 1.0);
 }
 
-/// The same for the elements of a mesh.
+/// The same for explicit steps of a mesh.
 template <class M>
 typename M::Constants mesh_constants(const typename M::Params& p) {
   if constexpr (requires { M::mesh_constants(p); })

@@ -61,7 +61,7 @@ void mix(std::vector<double>& to, const std::vector<double>& start, const std::v
 
 }  // namespace
 
-ImplicitSteps::ImplicitSteps(Solver& s, const ImplicitSettings& settings)
+ImplicitSteps::ImplicitSteps(const Solver& s, const ImplicitSettings& settings)
     : settings_(settings),
       matrix_(s),
       scale_(residual_scale(s, matrix_)),
@@ -72,9 +72,7 @@ ImplicitSteps::ImplicitSteps(Solver& s, const ImplicitSettings& settings)
       change_(matrix_.size()),
       rate_(Eigen::VectorXd::Zero(s.water.num_equations)),
       middle_(s.model.num_dofs + 1, 0.0),
-      internal_(s.model.num_dofs, 0.0) {
-  refine_laws(s);
-}
+      internal_(s.model.num_dofs, 0.0) {}
 
 /// Strains, stresses and flows of the velocities of the state over the step; false where the soil
 /// deforms too much for small strains.

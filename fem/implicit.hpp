@@ -29,7 +29,7 @@ struct ImplicitRecord {
 
 class ImplicitSteps {
  public:
-  ImplicitSteps(Solver& s, const ImplicitSettings& settings);
+  ImplicitSteps(const Solver& s, const ImplicitSettings& settings);
   /// One step with the present moduli, not beyond `left` [s], over a base with the velocity
   /// ground(t) [m/s]. Afterwards the velocities of the state are those at its time. Throws
   /// NumericsError naming time, step and element where no step that is allowed converges; the state

@@ -23,24 +23,19 @@ Elasticity gravity_elasticity(const Material& m) {
 
 namespace {
 
-/// `constants` of the parameters of each material's law.
-void set_constants(Solver& s, auto&& constants) {
+void set_constants(Solver& s) {
   const std::vector<Material>& materials = s.model.materials;
   ShakingLaws::each(
       [&]<class M>() { std::get<LawConstants<M>>(s.laws).of.resize(materials.size()); });
   for (std::size_t i = 0; i < materials.size(); ++i)
     std::visit(
         [&]<class M>(const flowslide::Material<M>& law) {
-          std::get<LawConstants<M>>(s.laws).of[i] = constants.template operator()<M>(law.params);
+          std::get<LawConstants<M>>(s.laws).of[i] = shaking_constants<M>(law.params);
         },
         materials[i].law);
 }
 
 }  // namespace
-
-void refine_laws(Solver& s) {
-  set_constants(s, []<class M>(const typename M::Params& p) { return shaking_constants<M>(p); });
-}
 
 Solver make_solver(const Model& model, const Damping& damping) {
   check(model);
@@ -48,7 +43,7 @@ Solver make_solver(const Model& model, const Damping& damping) {
   s.model = model;
   s.layout = make_layout(model);
   s.water = make_pressure_system(model, s.layout);
-  set_constants(s, []<class M>(const typename M::Params& p) { return mesh_constants<M>(p); });
+  set_constants(s);
   s.damping = damping;
   const std::size_t n = s.layout.elements.size(), dofs = model.num_dofs + 1;
   s.hourglass_shear.resize(n);

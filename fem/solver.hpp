@@ -123,10 +123,6 @@ const typename M::Constants& constants_of(const Solver& s, std::int32_t material
 /// Elastic constants of the stage of gravity.
 Elasticity gravity_elasticity(const Material& m);
 
-/// Integrates laws as closely as for a point by itself: an iteration is not solved to 1e-4 of a
-/// node's weight while sub-steps are in error by as much of the stress.
-void refine_laws(Solver& s);
-
 /// Allocates everything; stress, pressure and laws are empty until solve_gravity.
 Solver make_solver(const Model& model, const Damping& damping);
 

@@ -90,7 +90,7 @@ History shake_explicitly(double share = 1.0, double G0 = kStiffness) {
 }
 
 History shake_implicitly(const ImplicitSettings& settings) {
-  Solver start = slope(kStiffness);
+  const Solver start = slope(kStiffness);
   ImplicitSteps steps(start, settings);
   ImplicitRecord record;
   History h = shake(start, [&](Solver& s, double left) {
