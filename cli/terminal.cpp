@@ -109,8 +109,8 @@ RunEvents Display::events() {
     first_fraction_ = -1.0;
     last_tenth_ = 0;
   };
-  events.progress = [this](std::string_view stage, double fraction, std::string_view text) {
-    progress(stage, fraction, text);
+  events.progress = [this](std::string_view stage, Share share, std::string_view text) {
+    progress(stage, share, text);
   };
   events.done = [this](std::string_view stage, double seconds) { done(stage, seconds); };
   events.notice = [this](std::string_view text) { notice(text); };
@@ -136,7 +136,8 @@ void Display::plan(std::string_view stage, const Decision& decision) const {
   fmt::print("{}\n", cut_to(fmt::format("{:<{}} {}{}", stage, kNameWidth, verb, why), columns_));
 }
 
-void Display::progress(std::string_view stage, double fraction, std::string_view text) {
+void Display::progress(std::string_view stage, Share share, std::string_view text) {
+  const double fraction = share.done;
   if (!(fraction >= 0.0 && fraction <= 1.0)) return;
   if (first_fraction_ < 0.0) {
     first_fraction_ = fraction;
@@ -144,7 +145,9 @@ void Display::progress(std::string_view stage, double fraction, std::string_view
   }
   const double gained = fraction - first_fraction_;
   const std::string eta =
-      gained > 1e-6 ? clock_text(seconds_since(start_) * (1.0 - fraction) / gained) : "?";
+      gained > 1e-6 ? (share.at_least ? "<" : "") +
+                          clock_text(seconds_since(start_) * (1.0 - fraction) / gained)
+                    : "?";
   const int percent = static_cast<int>(fraction * 100.0);
   if (!terminal_) {
     const int tenth = static_cast<int>(fraction * 10.0);

@@ -41,7 +41,7 @@ class Display {
 
  private:
   void warn(std::string_view stage, const std::vector<std::string>& warnings);
-  void progress(std::string_view stage, double fraction, std::string_view text);
+  void progress(std::string_view stage, Share share, std::string_view text);
   void done(std::string_view stage, double seconds);
 
   bool terminal_;

@@ -1,4 +1,4 @@
-#include "cli/inspect_run.hpp"
+#include "exchange/inspect_run.hpp"
 
 #include "core/check.hpp"
 #include "workflows/engine/lock.hpp"
@@ -10,7 +10,7 @@
 
 namespace fs = std::filesystem;
 
-namespace flowslide::cli {
+namespace flowslide {
 namespace {
 
 /// Folders in a folder, links left out, by name.
@@ -81,4 +81,4 @@ Json inspect_run(const fs::path& folder) {
   return j;
 }
 
-}  // namespace flowslide::cli
+}  // namespace flowslide

@@ -1,25 +1,27 @@
-#include "transfer/map/map_sordo2024.hpp"
+#include "transfer/sordo2024/map_sordo2024.hpp"
+
+#include "core/check.hpp"
+#include "transfer/seeding/toe.hpp"
 
 #include <algorithm>
-#include <map>
 
 namespace flowslide {
 namespace {
 
 Vec2 base_displacement(const QuadMesh& mesh, const FemFrame& frame, int node_tag) {
   const auto found = std::find(mesh.node_tags.begin(), mesh.node_tags.end(), node_tag);
-  validate(found != mesh.node_tags.end(), "map: sordo2024.base_node {} is not in the mesh",
-           node_tag);
+  validate(found != mesh.node_tags.end(), "base_node {} is not in the mesh", node_tag);
   // The script removes x only.
   return {frame.displacement[static_cast<std::size_t>(found - mesh.node_tags.begin())][0], 0.0};
 }
 
 }  // namespace
 
-MapResult map_sordo2024_audited(const FemHistory& history, const MapConfig& config) {
-  const SordoConfig& sordo = *config.sordo2024;
-  MapResult result{map_sordo2024(history, sordo), {}};
-  const ParticleSet& p = result.particles;
+SordoResult map_sordo2024_audited(const FemHistory& history, const LiquefactionZone& zone,
+                                  const SordoTransferConfig& config) {
+  const SordoConfig sordo = for_history(config, history, zone.transfer_frame);
+  SordoResult result{map_sordo2024(history, sordo), {}};
+  ParticleSet& p = result.particles;
   const QuadMesh& mesh = history.mesh();
   const FemFrame frame =
       sordo.frame < 0 ? history.gravity() : history.frame(static_cast<std::size_t>(sordo.frame));
@@ -28,18 +30,14 @@ MapResult map_sordo2024_audited(const FemHistory& history, const MapConfig& conf
   std::vector<Vec2> positions = mesh.nodes;
   for (std::size_t n = 0; n < positions.size(); ++n)
     for (int c = 0; c < 2; ++c) positions[n][c] += frame.displacement[n][c] - base[c];
-  std::map<int, double> density_of;
-  for (const std::vector<double>& row : sordo.densities)
-    density_of[static_cast<int>(row[0])] = row[1];
-  SeedDomain domain{mesh,
-                    positions,
-                    {},
-                    std::vector<std::int32_t>(mesh.num_elements(), 0),
-                    {sordo.keep_x[0], sordo.keep_x[1], sordo.keep_y[0], sordo.keep_y[1]}};
-  for (const std::int32_t tag : mesh.element_material) {
-    const auto found = density_of.find(tag);
-    domain.density.push_back(found == density_of.end() ? 0.0 : found->second);
-  }
+  const SeedDomain domain{mesh,
+                          positions,
+                          element_densities(mesh, history.materials()),
+                          std::vector<std::int32_t>(mesh.num_elements(), 0),
+                          {sordo.keep_x[0], sordo.keep_x[1], sordo.keep_y[0], sordo.keep_y[1]}};
+  std::vector<std::uint8_t> counts;
+  for (const std::int32_t tag : mesh.element_material) counts.push_back(tag != sordo.foundation);
+  p.toe = toe_of(mesh, counts, domain.box);
 
   TransferAudit& audit = result.audit;
   audit.time = frame.time;
@@ -58,7 +56,7 @@ MapResult map_sordo2024_audited(const FemHistory& history, const MapConfig& conf
   audit.notes = sordo2024_defects();
   const StateIntegrals mapped = integrate(p);
   fill_checks(audit, integrate(domain, frame.velocity, frame.pore_pressure, frame.stress, true),
-              mapped, mapped, config.audit);
+              mapped, mapped, AuditLimits{});
   for (AuditCheck& c : audit.checks) c.limit = kUnset;
   return result;
 }
