@@ -79,7 +79,8 @@ std::vector<double> round_numbers(double low, double high, int n) {
   while (unit * 10.0 <= wanted) unit *= 10.0;
   const double ratio = wanted / unit;
   const double step = unit * (ratio <= 1.0 ? 1.0 : ratio <= 2.0 ? 2.0 : ratio <= 5.0 ? 5.0 : 10.0);
-  for (double i = std::ceil(low / step); i * step <= high; i += 1.0) numbers.push_back(i * step);
+  for (double i = std::ceil(low / step); i * step <= high; i += 1.0)
+    numbers.push_back(i * step + 0.0);
   return numbers;
 }
 

@@ -47,12 +47,7 @@ std::string readable(const Table& table, const std::string& name) {
   std::string text = name;
   const Column* c = table.find(name);
   const std::string unit = c ? c->unit : unit_in_name(name);
-  if (c && c->role == Role::found && !unit.empty()) {
-    // "runout_m" is "runout"; the ending is as long as its unit is there.
-    std::string ending = "_" + unit;
-    std::replace(ending.begin(), ending.end(), '/', '_');
-    if (text.ends_with(ending)) text.resize(text.size() - ending.size());
-  }
+  if (c && c->role == Role::found) text = without_unit(name);
   std::replace(text.begin(), text.end(), '_', ' ');
   return unit.empty() ? text : fmt::format("{} [{}]", text, unit);
 }

@@ -18,6 +18,12 @@ void write_page(const fs::path& folder, const Plan& plan, const Table& table) {
   const Page page = make_page(plan, table, findings);
   make_folders(folder / "figures");
   for (const auto& [name, svg] : page.figures) write_file(folder / "figures" / name, svg);
+  // Those of an earlier state of the study would look like its own.
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder / "figures", ignored))
+    if (entry.path().extension() == ".svg" &&
+        !page.figures.contains(entry.path().filename().string()))
+      fs::remove(entry.path(), ignored);
   write_file(folder / "study.html", page.html);
 }
 

@@ -30,14 +30,25 @@ bool varies(const Column& c) {
   return values.size() > 1;
 }
 
+/// Depths of liquefaction, one per window: of several definitions that with the shortest name.
+std::vector<std::string> depths(const Table& table) {
+  std::vector<std::string> all, result;
+  for (const Column& c : table.columns)
+    if (c.role == Role::found && c.is_number && c.name.starts_with("liquefaction_depth_"))
+      all.push_back(c.name);
+  for (const std::string& name : all)
+    if (std::none_of(all.begin(), all.end(), [&](const std::string& other) {
+          return other != name && name.starts_with(other.substr(0, other.size() - 1));
+        }))
+      result.push_back(name);
+  return result;
+}
+
 std::vector<std::string> usual_results(const Table& table) {
   std::vector<std::string> results;
-  for (const Column& c : table.columns) {
-    const bool usual = c.name == "runout_m" || c.name == "runout_mass_quantile_m" ||
-                       c.name == "volume_past_toe_m3_per_m" ||
-                       c.name.starts_with("liquefaction_depth_");
-    if (c.role == Role::found && c.is_number && usual) results.push_back(c.name);
-  }
+  for (const char* name : {"runout_m", "runout_mass_quantile_m", "volume_past_toe_m3_per_m"})
+    if (const Column* c = table.find(name); c && c->is_number) results.emplace_back(name);
+  for (std::string& name : depths(table)) results.push_back(std::move(name));
   return results;
 }
 
@@ -135,8 +146,12 @@ class Analyst {
   [[nodiscard]] bool is_cause(const Column& x, const Column& y) const {
     if (&x == &y || !x.is_number || !varies(x)) return false;
     if (x.role == Role::input) return feeds(x, y);
-    if (x.name.starts_with("motion_") && x.name != "motion_dt_s") return true;
-    return x.name.starts_with("liquefaction_depth_") && !y.name.starts_with("liquefaction_depth_");
+    // How long a record goes on, and in what steps, is no measure of the motion.
+    if (x.name.starts_with("motion_"))
+      return x.name != "motion_dt_s" && x.name != "motion_duration_s";
+    const std::vector<std::string> all = depths(table_);
+    return std::find(all.begin(), all.end(), x.name) != all.end() &&
+           !y.name.starts_with("liquefaction_depth_");
   }
 
   void relate(const Column& y) {
@@ -166,8 +181,7 @@ class Analyst {
   void add_thresholds() {
     auto pairs = plan_.analysis.thresholds;
     if (pairs.empty() && table_.find("runout_m"))
-      for (const Column& c : table_.columns)
-        if (c.name.starts_with("liquefaction_depth_")) pairs.emplace_back(c.name, "runout_m");
+      for (const std::string& name : depths(table_)) pairs.emplace_back(name, "runout_m");
     for (const auto& [x, y] : pairs) {
       if (!is_there(x, "analysis.thresholds") || !is_there(y, "analysis.thresholds")) continue;
       const Pairs p = observations(*table_.find(x), *table_.find(y));

@@ -131,14 +131,17 @@ class Builder {
             c.number.assign(table_.rows, kUnset);
             c.node.assign(table_.rows, kNoNode);
           }
-          const WorkflowStage& stage = plan_.nodes[n].stage;
-          c.source = fmt::format("{} ({})", stage.name, stage.type.name);
-          c.node[r] = n;
+          const std::string before = c.text[r];
           if (value.is_string())
             c.text[r] = value.get<std::string>();
           else
             set(c, r,
                 value.is_boolean() ? static_cast<double>(value.get<bool>()) : value.get<double>());
+          // A report that says the same again has not found it.
+          if (c.node[r] != kNoNode && c.text[r] == before) continue;
+          const WorkflowStage& stage = plan_.nodes[n].stage;
+          c.source = fmt::format("{} ({})", stage.name, stage.type.name);
+          c.node[r] = n;
         }
       }
     for (const std::string_view name : kFirst)
@@ -181,21 +184,33 @@ Table make_table(const Plan& plan, const StudyState& progress) {
   return Builder(plan, progress).build();
 }
 
+namespace {
+
+/// How names end, and the units that this stands for; longer ones first.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kUnits{
+    {{"_m3_per_m", "m3/m"},
+     {"_kg_per_m", "kg/m"},
+     {"_j_per_m", "J/m"},
+     {"_m_s2", "m/s2"},
+     {"_m_s", "m/s"},
+     {"_percent", "%"},
+     {"_pa", "Pa"},
+     {"_j", "J"},
+     {"_m", "m"},
+     {"_s", "s"}}};
+
+}  // namespace
+
 std::string unit_in_name(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kUnits{
-      {{"_m3_per_m", "m3/m"},
-       {"_kg_per_m", "kg/m"},
-       {"_j_per_m", "J/m"},
-       {"_m_s2", "m/s2"},
-       {"_m_s", "m/s"},
-       {"_percent", "%"},
-       {"_pa", "Pa"},
-       {"_j", "J"},
-       {"_m", "m"},
-       {"_s", "s"}}};
   for (const auto& [ending, unit] : kUnits)
     if (name.ends_with(ending)) return std::string(unit);
   return "";
+}
+
+std::string without_unit(std::string_view name) {
+  for (const auto& [ending, unit] : kUnits)
+    if (name.ends_with(ending)) return std::string(name.substr(0, name.size() - ending.size()));
+  return std::string(name);
 }
 
 }  // namespace flowslide::study

@@ -42,5 +42,7 @@ void write_hdf5(const std::filesystem::path& path, const Table& table);
 
 /// "m" of "runout_m"; empty if the name ends in no unit.
 std::string unit_in_name(std::string_view name);
+/// "runout" of "runout_m"; the name itself if it ends in no unit.
+std::string without_unit(std::string_view name);
 
 }  // namespace flowslide::study

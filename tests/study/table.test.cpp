@@ -98,6 +98,8 @@ TEST_CASE("Numbers that hang on the machine are not in the table", "[study]") {
   CHECK(unit_in_name("volume_past_toe_m3_per_m") == "m3/m");
   CHECK(unit_in_name("motion_pga_m_s2") == "m/s2");
   CHECK(unit_in_name("particles") == "");
+  CHECK(without_unit("volume_past_toe_m3_per_m") == "volume_past_toe");
+  CHECK(without_unit("particles") == "particles");
 }
 
 TEST_CASE("A column that is not there is refused by its name", "[study]") {
