@@ -231,6 +231,7 @@ MpmHistory& MpmHistory::operator=(MpmHistory&&) noexcept = default;
 
 const ParticleSet& MpmHistory::initial() const { return impl_->initial; }
 std::size_t MpmHistory::num_frames() const { return impl_->times.size(); }
+const std::vector<double>& MpmHistory::times() const { return impl_->times; }
 const std::vector<MpmSample>& MpmHistory::samples() const { return impl_->samples; }
 
 MpmFrame MpmHistory::frame(std::size_t index) const {

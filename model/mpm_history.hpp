@@ -86,6 +86,7 @@ class MpmHistory {
   /// The particles as they were handed over, in order of id: material, mass, initial state.
   [[nodiscard]] const ParticleSet& initial() const;
   [[nodiscard]] std::size_t num_frames() const;
+  [[nodiscard]] const std::vector<double>& times() const;  ///< of the frames [s]
   [[nodiscard]] MpmFrame frame(std::size_t index) const;
   [[nodiscard]] const std::vector<MpmSample>& samples() const;
 

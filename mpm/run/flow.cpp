@@ -65,12 +65,22 @@ void check_step(const mpm::Simulation<Dim>& s, mpm::RunState& run) {
       std::sqrt(s.last.max_speed2), s.dt, first));
 }
 
+/// Brings the next frame forward to now if the fastest point has gone too far since the last one.
+void hurry_frame(mpm::RunState& run, const MpmSample& now, const FlowConfig& config) {
+  const double since = now.time - (run.next_frame - config.frame_interval);
+  if (config.frame_travel && now.max_speed * since >= *config.frame_travel)
+    run.next_frame = now.time;
+}
+
 /// Refuses a run that would not end in any useful time, or fill any disk.
 template <int Dim>
 void check_cost(const mpm::Simulation<Dim>& s, const std::vector<MaterialSpec>& materials,
                 const FlowConfig& config, double dt, int threads) {
   const auto points = static_cast<double>(s.points.size());
-  const double bytes = points * kFrameBytesPerPoint * config.end / config.frame_interval;
+  const double interval = config.frame_travel
+                              ? std::min(config.frame_interval, config.sample_interval)
+                              : config.frame_interval;
+  const double bytes = points * kFrameBytesPerPoint * config.end / interval;
   validate(bytes <= kMostBytes,
            "frame_interval = {:g} s asks for {:.3g} GB of stored states of {} points until {:g} s "
            "(at most {:g} GB are written) raise frame_interval or lower end",
@@ -161,6 +171,7 @@ FlowFacts run_in(const ParticleSet& particles, const FlowConfig& config, const F
       history.append(facts.last);
       ++run.samples;
       while (run.next_sample <= s.time) run.next_sample += config.sample_interval;
+      hurry_frame(run, facts.last, config);
       run.peak_kinetic = std::max(run.peak_kinetic, facts.last.kinetic);
       run.recent.push_back({s.time, facts.last.front});
       std::erase_if(run.recent, [&](const auto& r) { return r[0] < s.time - config.rest.window; });
