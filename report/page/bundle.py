@@ -10,8 +10,8 @@ import re
 import sys
 
 FOLDER = pathlib.Path(__file__).resolve().parent
-ORDER = ["tools", "arrays", "colours", "chart", "view", "points", "windows", "player", "section",
-         "histories", "page"]
+ORDER = ["tools", "arrays", "colours", "chart", "view", "points", "windows", "profile", "player",
+         "section", "histories", "page"]
 
 
 def script():

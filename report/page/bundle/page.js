@@ -164,6 +164,7 @@ make("figcaption", {}, make("b", {}, title), this.buttons()), this.legend(), thi
 ...(note ? [make("p", { class: "note" }, note)] : []));
 this.listen();
 onWidth(this.plot, () => this.render());
+new IntersectionObserver(() => this.stale && this.render()).observe(this.plot);
 }
 buttons() {
 const button = (text, help, action) =>
@@ -274,6 +275,7 @@ return d;
 render() {
 const width = this.plot.clientWidth;
 if (width < 40) return;
+this.stale = false;
 this.wide = width - CHART.left - CHART.right;
 this.high = CHART.height - CHART.top - CHART.bottom;
 this.rangeY = this.findRangeY();
@@ -298,6 +300,16 @@ this.svg.setAttribute("viewBox", `0 0 ${width} ${CHART.height}`);
 this.svg.replaceChildren(draw("clipPath", { id }, draw("rect", box)), ...this.axes(), lines, this.cursor);
 this.reset.hidden = this.range === this.full;
 this.showTime(this.time);
+}
+refresh() {
+if (this.waiting) return;
+this.waiting = true;
+requestAnimationFrame(() => {
+this.waiting = false;
+const box = this.plot.getBoundingClientRect();
+if (box.bottom > 0 && box.top < innerHeight) this.render();
+else this.stale = true;
+});
 }
 zoom(low, high) {
 const smallest = 1e-4 * (this.full[1] - this.full[0]);
@@ -791,6 +803,51 @@ const dam = { "whole section": [left - 0.2 * height, right + 0.3 * height] };
 if (toe !== null && toe - 5 * height > left) dam.dam = [toe - 5 * height, right + 0.3 * height];
 return { flow: windows, dam, range: [low - 0.08 * height, top + 0.35 * height] };
 }
+class Profile {
+constructor(run, points, [left, right]) {
+const wide = Math.max(5 * points.spacing, (right - left) / 200), bins = Math.ceil((right - left) / wide);
+Object.assign(this, { points, left, wide, bins });
+const counts = run.materials.map((m) => m.counts);
+this.depth = Array.from({ length: points.frames }, () => new Float32Array(bins));
+this.speed = Array.from({ length: points.frames }, () => new Float32Array(bins));
+for (let f = 0; f < points.frames; ++f) this.fill(f, counts);
+this.x = Array.from({ length: bins }, (_, b) => left + (b + 0.5) * wide);
+const largest = (rows) => this.x.map((_, b) => Math.max(...rows.map((row) => row[b])));
+const x = { label: "x", unit: "m" };
+this.charts = [["Depth along the section", "depth of what moved", "m", this.depth, LINE.blue],
+["Speed along the section", "mean speed of what moved", "m/s", this.speed, LINE.orange]].map(
+([title, label, unit, rows, colour]) => new Chart({ title, x, group: "along",
+y: { label, unit, zero: true, span: 0.1 },
+series: [{ name: "at this instant", x: this.x, y: rows[points.frames - 1], colour },
+{ name: "largest of all", x: this.x, y: largest(rows), colour: LINE.ink, dash: "2 3" }],
+marks: run.toe_m === null ? [] : [{ x: run.toe_m, text: "toe" }] }));
+}
+fill(f, counts) {
+const p = this.points, depth = this.depth[f], speed = this.speed[f], a = f * p.count;
+const number = new Uint32Array(this.bins);
+for (let i = 0; i < p.count; ++i) {
+const x = p.xs[a + i], b = Math.floor((x - this.left) / this.wide);
+if (b < 0 || b >= this.bins || !counts[p.material[i]]) continue;
+if (Math.hypot(x - p.x0[i], p.ys[a + i] - p.y0[i]) < p.moved) continue;
+++number[b];
+speed[b] += p.speeds[a + i];
+}
+for (let b = 0; b < this.bins; ++b) {
+if (number[b]) speed[b] /= number[b];
+depth[b] = (number[b] * p.spacing ** 2) / this.wide;
+}
+}
+show(time) {
+const { times } = this.points, k = indexBefore(times, time);
+const frame = k + 1 < times.length && times[k + 1] - time < time - times[k] ? k + 1 : k;
+if (frame === this.frame) return;
+this.frame = frame;
+[this.depth, this.speed].forEach((rows, c) => {
+this.charts[c].series[0].y = rows[frame];
+this.charts[c].refresh();
+});
+}
+}
 const RATES = [0.25, 0.5, 1, 2, 5, 10, 20, 50];
 class Player {
 constructor({ run, points, frames, flow, onTime }) {
@@ -1186,7 +1243,11 @@ const points = new Points(run, array), frames = sectionWindows(run, points);
 const marks = run.shaken ? [{ x: run.transfer_time_s, text: "transfer" }] : [];
 let player = null;
 const charts = flowCharts(run, flow, (t) => { player.pause(); player.show(t); });
-player = new Player({ run, points, frames, flow, onTime: (t) => charts.forEach((c) => c.showTime(t)) });
+const windows = Object.values(frames.flow), profile = new Profile(run, points, windows[windows.length - 1]);
+player = new Player({ run, points, frames, flow, onTime: (t) => {
+charts.forEach((c) => c.showTime(t));
+profile.show(t);
+} });
 document.getElementById("player").replaceChildren(player.element);
 player.fillStrip();
 const section = run.section ? new Section({ run, array, frames }) : null;
@@ -1195,7 +1256,7 @@ document.getElementById("section").replaceChildren(section ? section.element
 const shaking = [...motionCharts(run, array, marks), ...shakingCharts(run, array, marks)];
 const grid = (title, list) => (list.length ? [make("h3", {}, title),
 make("div", { class: "grid" }, ...list.map((c) => c.element))] : []);
-document.getElementById("charts").replaceChildren(...grid("The flow", charts), ...grid("The shaking", shaking));
+document.getElementById("charts").replaceChildren(...grid("The flow", [...charts, ...profile.charts]), ...grid("The shaking", shaking));
 const redraw = () => {
 player.view.redraw();
 player.fillStrip();

@@ -22,6 +22,7 @@ class Chart {
       ...(note ? [make("p", { class: "note" }, note)] : []));
     this.listen();
     onWidth(this.plot, () => this.render());
+    new IntersectionObserver(() => this.stale && this.render()).observe(this.plot);
   }
 
   buttons() {
@@ -140,6 +141,7 @@ class Chart {
   render() {
     const width = this.plot.clientWidth;
     if (width < 40) return;
+    this.stale = false;
     this.wide = width - CHART.left - CHART.right;
     this.high = CHART.height - CHART.top - CHART.bottom;
     this.rangeY = this.findRangeY();
@@ -164,6 +166,18 @@ class Chart {
     this.svg.replaceChildren(draw("clipPath", { id }, draw("rect", box)), ...this.axes(), lines, this.cursor);
     this.reset.hidden = this.range === this.full;
     this.showTime(this.time);
+  }
+
+  /** Draws again when the page is drawn next, if it can be seen. */
+  refresh() {
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => {
+      this.waiting = false;
+      const box = this.plot.getBoundingClientRect();
+      if (box.bottom > 0 && box.top < innerHeight) this.render();
+      else this.stale = true;
+    });
   }
 
   zoom(low, high) {

@@ -43,7 +43,11 @@ async function start() {
   const marks = run.shaken ? [{ x: run.transfer_time_s, text: "transfer" }] : [];
   let player = null;
   const charts = flowCharts(run, flow, (t) => { player.pause(); player.show(t); });
-  player = new Player({ run, points, frames, flow, onTime: (t) => charts.forEach((c) => c.showTime(t)) });
+  const windows = Object.values(frames.flow), profile = new Profile(run, points, windows[windows.length - 1]);
+  player = new Player({ run, points, frames, flow, onTime: (t) => {
+    charts.forEach((c) => c.showTime(t));
+    profile.show(t);
+  } });
   document.getElementById("player").replaceChildren(player.element);
   player.fillStrip();
   const section = run.section ? new Section({ run, array, frames }) : null;
@@ -52,7 +56,7 @@ async function start() {
   const shaking = [...motionCharts(run, array, marks), ...shakingCharts(run, array, marks)];
   const grid = (title, list) => (list.length ? [make("h3", {}, title),
     make("div", { class: "grid" }, ...list.map((c) => c.element))] : []);
-  document.getElementById("charts").replaceChildren(...grid("The flow", charts), ...grid("The shaking", shaking));
+  document.getElementById("charts").replaceChildren(...grid("The flow", [...charts, ...profile.charts]), ...grid("The shaking", shaking));
   const redraw = () => {
     player.view.redraw();
     player.fillStrip();
