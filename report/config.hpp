@@ -30,7 +30,7 @@ struct ReportConfig {
   bool figures = true;
   bool page = true;
   int page_points = 40000;
-  int page_frames = 60;
+  int page_frames = 48;
   bool paraview = true;
   std::optional<std::string> python;  ///< interpreter of the figures; found by itself if empty
 };

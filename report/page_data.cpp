@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kMostStates = 400;  ///< of the shaking that are read for the crest
+constexpr std::size_t kMostStates = 200;  ///< of the shaking that are read for the crest
 constexpr std::size_t kMostNodes = 65000;
 
 void add_flow(PageArrays& arrays, const std::vector<MpmSample>& samples, double toe) {

@@ -126,10 +126,10 @@ ShownPoints add_points(PageArrays& arrays, const MpmHistory& flow,
       choose_frames(flow.times(), flow.samples(), most_frames);
   constexpr std::size_t kTip = 20;
   const std::vector<std::size_t> points = choose_points(
-      undeformed, foremost(p, flow.frame(flow.num_frames() - 1), kTip), most_points);
+      undeformed, foremost(p, flow.motion(flow.num_frames() - 1), kTip), most_points);
   Series s;
-  const MpmFrame first = flow.frame(0);
-  for (const std::size_t f : frames) append_frame(s, flow.frame(f), first, points);
+  const MpmFrame first = flow.motion(0);
+  for (const std::size_t f : frames) append_frame(s, flow.motion(f), first, points);
   std::vector<double> x0, y0, material;
   double area = 0.0;
   for (const std::size_t i : points) {
