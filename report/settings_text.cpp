@@ -63,6 +63,7 @@ std::string find_setting(std::string_view settings, std::string_view path) {
 
 std::vector<std::vector<double>> rows_of(std::string_view value) {
   std::vector<std::vector<double>> rows;
+  if (!value.starts_with("[[")) return rows;
   int depth = 0;
   const char* const end = value.data() + value.size();
   for (const char* c = value.data(); c < end;) {

@@ -76,7 +76,8 @@ def check_player(page):
     page.key(" ", "Space", " ")
     page.wait("!document.querySelector('.readout').textContent.startsWith('t = 0.00')")
     page.key("End")
-    expect(f"and to the end ({at_end})", readout(page) == at_end and "runout 125" in at_end)
+    runout = page.run("JSON.parse(document.getElementById('run').textContent).runout_m")
+    expect(f"and to the end ({at_end})", readout(page) == at_end and f"runout {runout:.1f}" in at_end)
     picture = "document.querySelector('#player .plot canvas').toDataURL()"
     before = page.run(picture)
     for mode in ("material", "strength", "speed"):
