@@ -12,7 +12,8 @@ std::string paired(std::string text, std::string_view mark, std::string_view tag
   std::string out;
   for (std::size_t at = 0;;) {
     const std::size_t open = text.find(mark, at);
-    const std::size_t close = open == std::string::npos ? open : text.find(mark, open + mark.size());
+    const std::size_t close =
+        open == std::string::npos ? open : text.find(mark, open + mark.size());
     if (close == std::string::npos) return out + text.substr(at);
     out += text.substr(at, open - at);
     out += "<" + std::string(tag) + ">";
@@ -79,12 +80,23 @@ std::string html_text(std::string_view text) {
   std::string out;
   for (const char c : text) {
     switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      case '\'': out += "&#39;"; break;
-      default: out += static_cast<unsigned char>(c) < 0x20 && c != '\n' ? ' ' : c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      default:
+        out += static_cast<unsigned char>(c) < 0x20 && c != '\n' ? ' ' : c;
     }
   }
   return out;

@@ -45,9 +45,9 @@ std::string anchor(std::string_view title) {
 }
 
 std::string section(std::string_view title, const std::string& html, std::string_view kind = "") {
-  return fmt::format(
-      "<section id=\"{0}\"{2}><h2>{1}</h2>\n{3}</section>\n", anchor(title), html_text(title),
-      kind.empty() ? "" : fmt::format(" class=\"{}\"", kind), html);
+  return fmt::format("<section id=\"{0}\"{2}><h2>{1}</h2>\n{3}</section>\n", anchor(title),
+                     html_text(title), kind.empty() ? "" : fmt::format(" class=\"{}\"", kind),
+                     html);
 }
 
 std::string head(const ReportConfig& config) {
@@ -73,8 +73,9 @@ std::string cards(const ReportInputs& in, const ReportFacts& f) {
   std::vector<Card> list;
   if (is_set(f.toe))
     list.push_back({"runout", number(f.runout, 1), "m",
-                    f.runout > 0.0 ? fmt::format("{:.1f} m by mass", f.runout_mass)
-                                   : fmt::format("front {:.1f} m short of the toe", f.toe - f.front)});
+                    f.runout > 0.0
+                        ? fmt::format("{:.1f} m by mass", f.runout_mass)
+                        : fmt::format("front {:.1f} m short of the toe", f.toe - f.front)});
   for (const auto& [window, depth] : f.liquefaction_depth)
     list.push_back({"liquefied, " + window, number(depth, 1), "m", "largest depth"});
   list.push_back({"failed volume", number(f.failed_volume, 0), "m3/m",
@@ -89,15 +90,15 @@ std::string cards(const ReportInputs& in, const ReportFacts& f) {
   std::string out = "<div class=\"cards\">";
   for (const Card& c : list)
     out += fmt::format(
-        "<div class=\"card\"><span class=\"name\">{}</span><span class=\"value\">{}<small> {}</small>"
+        "<div class=\"card\"><span class=\"name\">{}</span><span class=\"value\">{}<small> "
+        "{}</small>"
         "</span><span class=\"note\">{}</span></div>",
         html_text(c.name), html_text(c.value), html_text(c.unit), html_text(c.note));
   return out + "</div>\n";
 }
 
 std::string warnings_html(const std::vector<std::string>& warnings) {
-  if (warnings.empty())
-    return "<p class=\"quiet\">No stage of this run warned of anything.</p>\n";
+  if (warnings.empty()) return "<p class=\"quiet\">No stage of this run warned of anything.</p>\n";
   std::string text;
   for (const std::string& warning : warnings) text += "- " + cell(warning) + "\n";
   return section("Read this before using the numbers", markdown_html(text), "warnings");
@@ -112,15 +113,19 @@ std::string meta_line(const ReportInputs& in) {
 
 /// Places that the scripts fill; what they say is for readers without scripts.
 constexpr std::string_view kPlayer =
-    "<section id=\"the-flow\" class=\"wide\"><h2>The flow</h2>\n<div id=\"player\"><p>The player and "
-    "the charts of this page need JavaScript; the figures of the report do not.</p></div></section>\n"
+    "<section id=\"the-flow\" class=\"wide\"><h2>The flow</h2>\n<div id=\"player\"><p>The player "
+    "and "
+    "the charts of this page need JavaScript; the figures of the report do "
+    "not.</p></div></section>\n"
     "<section id=\"before-the-flow\" class=\"wide\"><h2>Section before the flow</h2>\n"
     "<div id=\"section\"></div></section>\n"
-    "<section id=\"histories\" class=\"wide\"><h2>Histories</h2>\n<div id=\"charts\"></div></section>\n";
+    "<section id=\"histories\" class=\"wide\"><h2>Histories</h2>\n<div "
+    "id=\"charts\"></div></section>\n";
 
 std::string navigation(const std::vector<ReportSection>& sections, bool settings) {
-  std::string out = "<nav><a href=\"#the-flow\">The flow</a><a href=\"#before-the-flow\">Section</a>"
-                    "<a href=\"#histories\">Histories</a>";
+  std::string out =
+      "<nav><a href=\"#the-flow\">The flow</a><a href=\"#before-the-flow\">Section</a>"
+      "<a href=\"#histories\">Histories</a>";
   for (const ReportSection& s : sections)
     out += fmt::format("<a href=\"#{}\">{}</a>", anchor(s.title), html_text(s.title));
   if (settings) out += "<a href=\"#every-setting\">Every setting</a>";
@@ -138,8 +143,8 @@ std::string settings_html(const std::vector<ToldStage>& stages) {
 
 }  // namespace
 
-std::string report_page(const ReportInputs& in, const ReportConfig& config, const ReportFacts& facts,
-                        const FinalState& end) {
+std::string report_page(const ReportInputs& in, const ReportConfig& config,
+                        const ReportFacts& facts, const FinalState& end) {
   const PageData data = page_data(in, config, facts, end);
   const std::vector<ReportSection> sections = report_sections(in, config, facts, end);
   std::string out = head(config) + "<body>\n<a class=\"skip\" href=\"#the-flow\">To the flow</a>\n";
@@ -154,7 +159,8 @@ std::string report_page(const ReportInputs& in, const ReportConfig& config, cons
   for (std::size_t k = 1; k < sections.size(); ++k)
     out += section(sections[k].title, markdown_html(sections[k].text));
   if (!in.stages.empty()) out += settings_html(in.stages);
-  out += "</main>\n<footer>Written by flowslide. This file is complete: it loads nothing.</footer>\n";
+  out +=
+      "</main>\n<footer>Written by flowslide. This file is complete: it loads nothing.</footer>\n";
   out += "<script type=\"application/json\" id=\"run\">" + in_script(data.json) + "</script>\n";
   out += "<script type=\"text/plain\" id=\"arrays\">" + data.arrays.text() + "</script>\n";
   out += "<script>" + std::string(kPageScript) + "</script>\n</body>\n</html>\n";

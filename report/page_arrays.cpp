@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <zlib.h>
 
 #include <nlohmann/json.hpp>
-#include <zlib.h>
 
 namespace flowslide {
 namespace {
@@ -98,8 +98,9 @@ std::string PageArrays::text() const {
                                reinterpret_cast<const Bytef*>(bytes_.data()),
                                static_cast<uLong>(bytes_.size()), 6);
   if (status != Z_OK)
-    throw FileError("the numbers of the page cannot be compressed (memory does not suffice) close "
-                    "other programs");
+    throw FileError(
+        "the numbers of the page cannot be compressed (memory does not suffice) close "
+        "other programs");
   deflated.resize(size);
   return base64(deflated);
 }
@@ -114,8 +115,7 @@ std::string base64(std::string_view bytes) {
     const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
     for (std::size_t k = 0; k < 3; ++k)
       word = (word << 8) | (k < n ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      out += k <= n ? digits[(word >> (18 - 6 * k)) & 63] : '=';
+    for (std::size_t k = 0; k < 4; ++k) out += k <= n ? digits[(word >> (18 - 6 * k)) & 63] : '=';
   }
   return out;
 }

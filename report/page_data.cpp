@@ -3,6 +3,7 @@
 #include "motion/spectrum.hpp"
 #include "report/page_points.hpp"
 #include "report/section_lines.hpp"
+#include "report/told_run.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -71,8 +72,9 @@ struct Watched {
 };
 
 Watched watched_nodes(const QuadMesh& mesh) {
-  const auto [low, high] = std::minmax_element(
-      mesh.nodes.begin(), mesh.nodes.end(), [](const Vec2& a, const Vec2& b) { return a[1] < b[1]; });
+  const auto [low, high] =
+      std::minmax_element(mesh.nodes.begin(), mesh.nodes.end(),
+                          [](const Vec2& a, const Vec2& b) { return a[1] < b[1]; });
   const double tolerance = 1e-6 * ((*high)[1] - (*low)[1]);
   Watched w;
   bool found = false;
@@ -110,9 +112,7 @@ Json add_crest(PageArrays& arrays, const FemHistory& history) {
 }
 
 /// Largest shear strain in the plane, engineering.
-double shear_strain(const StrainIncrement<2>& e) {
-  return std::hypot(e[0] - e[1], e[3]);
-}
+double shear_strain(const StrainIncrement<2>& e) { return std::hypot(e[0] - e[1], e[3]); }
 
 bool add_section(PageArrays& arrays, const FemHistory& history, const LiquefactionZone& zone) {
   const QuadMesh& mesh = history.mesh();
@@ -180,7 +180,8 @@ PageData page_data(const ReportInputs& in, const ReportConfig& config, const Rep
                               {"counts", m.counts_for_runout},
                               {"liquefied", m.name.starts_with(config.liquefied)}});
   j["soils"] = Json::array();
-  for (const auto& [tag, name] : soil_names(in.stages)) j["soils"].push_back({{"tag", tag}, {"name", name}});
+  for (const auto& [tag, name] : soil_names(in.stages))
+    j["soils"].push_back({{"tag", tag}, {"name", name}});
   j["ground"] = rows_json(ground_line(in.stages));
   j["outline"] = rows_json(outline_segments(in.history.mesh()));
   j["water"] = rows_json(water_surface(in.history.mesh(), in.history.gravity().pore_pressure));

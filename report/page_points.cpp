@@ -122,11 +122,10 @@ ShownPoints add_points(PageArrays& arrays, const MpmHistory& flow,
                        const std::vector<std::array<double, 3>>& undeformed,
                        std::size_t most_points, std::size_t most_frames) {
   const ParticleSet& p = flow.initial();
-  const std::vector<std::size_t> frames =
-      choose_frames(flow.times(), flow.samples(), most_frames);
+  const std::vector<std::size_t> frames = choose_frames(flow.times(), flow.samples(), most_frames);
   constexpr std::size_t kTip = 20;
-  const std::vector<std::size_t> points = choose_points(
-      undeformed, foremost(p, flow.motion(flow.num_frames() - 1), kTip), most_points);
+  const std::vector<std::size_t> points =
+      choose_points(undeformed, foremost(p, flow.motion(flow.num_frames() - 1), kTip), most_points);
   Series s;
   const MpmFrame first = flow.motion(0);
   for (const std::size_t f : frames) append_frame(s, flow.motion(f), first, points);

@@ -259,7 +259,8 @@ def section_before(section):
     strengths = np.unique(np.round(e["strength"][e["liquefied"] > 0] / 1e3, 2))
     tags, soils = np.unique(e["material"], return_inverse=True)
     names = {s["tag"]: s["name"] for s in info["soils"]}
-    figure, axes = stacked(panels, section.ylim, bar=0.85, footer=0.22 + 0.16 * (1 + len(tags) // 4))
+    footer = 0.22 + 0.16 * (1 + len(tags) // 4)
+    figure, axes = stacked(panels, section.ylim, bar=0.85, footer=footer)
     greys = ListedColormap(["0.93", "0.84", "0.75", "0.88", "0.79"])
     bars = []
     for ax in axes:

@@ -31,10 +31,10 @@ struct ReportInputs {
   std::string date = {};                    ///< of the report, "2026-11-28"; empty: not said
 };
 
-/// Writes into the existing or new folder `out`: report.md, report.html, facts.json, runout.csv, zone.csv,
-/// figures/, data/ (what the figures are drawn from), and flow.pvd and zone.pvd for ParaView.
-/// Figures that cannot be drawn become a warning in the facts and in the report.
-/// Throws InputError if the inputs do not belong together, FileError, Interrupted.
+/// Writes into the existing or new folder `out`: report.md, report.html, facts.json, runout.csv,
+/// zone.csv, figures/, data/ (what the figures are drawn from), and flow.pvd and zone.pvd for
+/// ParaView. Figures that cannot be drawn become a warning in the facts and in the report. Throws
+/// InputError if the inputs do not belong together, FileError, Interrupted.
 ReportFacts write_report(const ReportInputs& inputs, const ReportConfig& config,
                          const std::filesystem::path& out, const Progress& progress = {});
 

@@ -55,8 +55,8 @@ void cut_element(const QuadMesh& mesh, const std::vector<double>& pressure, std:
 
 /// y of the surface of the water on one line, highest cut first; unset if all is dry.
 double surface_of(const std::vector<Cut>& cuts) {
-  constexpr double dry = 1.0e3;       // [Pa]
-  constexpr double weight = 9.81e3;   // of water [N/m3]
+  constexpr double dry = 1.0e3;      // [Pa]
+  constexpr double weight = 9.81e3;  // of water [N/m3]
   for (std::size_t k = 0; k < cuts.size(); ++k) {
     if (!(cuts[k].pressure > dry)) continue;
     const double still = cuts[k].y + cuts[k].pressure / weight;

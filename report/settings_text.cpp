@@ -26,7 +26,8 @@ bool split_name(std::string_view text, std::string& name, std::string& rest) {
 
 template <class List>
 std::size_t place_of(List& list, const std::string& name, auto&& same, auto&& make) {
-  const auto at = std::find_if(list.begin(), list.end(), [&](const auto& e) { return same(e, name); });
+  const auto at =
+      std::find_if(list.begin(), list.end(), [&](const auto& e) { return same(e, name); });
   if (at != list.end()) return static_cast<std::size_t>(at - list.begin());
   list.push_back(make(name));
   return list.size() - 1;
@@ -97,7 +98,9 @@ SettingsTable settings_table(const std::vector<Setting>& settings, std::string_v
     using Row = std::pair<std::string, std::vector<std::string>>;
     const std::size_t row = place_of(
         table.rows, rest, [](const Row& a, const auto& b) { return a.first == b; },
-        [](const auto& n) { return Row{n, {}}; });
+        [](const auto& n) {
+          return Row{n, {}};
+        });
     auto& cells = table.rows[row].second;
     cells.resize(std::max(cells.size(), column + 1));
     cells[column] = s.value;

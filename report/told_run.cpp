@@ -103,8 +103,8 @@ std::string told_mesh(const ReportInputs& in) {
   Rows rows{{"elements, nodes", fmt::format("{}, {}", mesh.num_elements(), mesh.num_nodes())}};
   if (!size.empty())
     rows.push_back({"size of an element (root of its area): smallest, median, largest",
-                    fmt::format("{:.3g} m, {:.3g} m, {:.3g} m", size.front(),
-                                size[size.size() / 2], size.back())});
+                    fmt::format("{:.3g} m, {:.3g} m, {:.3g} m", size.front(), size[size.size() / 2],
+                                size.back())});
   const std::vector<double>& times = in.history.times();
   if (times.size() > 1)
     rows.push_back({"stored states of the shaking",
@@ -121,11 +121,14 @@ std::string told_grid(const ReportInputs& in) {
              fmt::format("{:.3g} m", std::sqrt(volume / static_cast<double>(p.size())))},
             {"stored states of the flow", fmt::format("{}", in.flow.num_frames())}};
   if (const ToldStage* flow = find_stage(in.stages, "mpm.run"))
-    for (const auto& [key, name] :
-         {std::pair{"cell", "cell size"}, {"toe", "toe, x"}, {"ground.friction", "friction of the ground"},
-          {"transfer", "transfer of velocity"}, {"basis", "basis"},
-          {"softening.reference_length", "reference length of softening"},
-          {"end", "longest flow"}, {"damping", "damping"}})
+    for (const auto& [key, name] : {std::pair{"cell", "cell size"},
+                                    {"toe", "toe, x"},
+                                    {"ground.friction", "friction of the ground"},
+                                    {"transfer", "transfer of velocity"},
+                                    {"basis", "basis"},
+                                    {"softening.reference_length", "reference length of softening"},
+                                    {"end", "longest flow"},
+                                    {"damping", "damping"}})
       if (const std::string value = find_setting(flow->settings, key); !value.empty())
         rows.push_back({name, value});
   return table({"grid of the flow", "value"}, rows);
@@ -184,7 +187,8 @@ double strength_left(const ReportInputs& in, const FinalState& end) {
 std::string how_sure(const ReportInputs& in, const ReportFacts& f) {
   std::string out = "**How sure**\n\n";
   out += fmt::format(
-      "- Balances at the end: mass {:.1e}, energy {:.1e}, momentum {:.1e}. Small residuals show that "
+      "- Balances at the end: mass {:.1e}, energy {:.1e}, momentum {:.1e}. Small residuals show "
+      "that "
       "the equations were solved, not that they are the right ones.\n",
       f.mass_error, f.energy_error, f.momentum_error);
   if (f.runout > 0.0)
@@ -193,12 +197,14 @@ std::string how_sure(const ReportInputs& in, const ReportFacts& f) {
         "fifth-farthest point, {:.1f} m by mass.\n",
         std::abs(f.runout - f.runout_mass), f.runout, f.runout_mass);
   if (in.zone.transfer_frame >= 0)
-    out += "- This is one run. A dam that liquefies makes metres of the last digit of its motion: "
-           "the scatter shows in runs whose motion differs by one part in a million and whose grid "
-           "is shifted within a cell, and no number of this page should be quoted without it.\n";
+    out +=
+        "- This is one run. A dam that liquefies makes metres of the last digit of its motion: "
+        "the scatter shows in runs whose motion differs by one part in a million and whose grid "
+        "is shifted within a cell, and no number of this page should be quoted without it.\n";
   else
     out += "- This is one run. Its scatter shows in runs whose grid is shifted within a cell.\n";
-  out += "- One run cannot show what the size of cells and elements does: halve both and compare.\n\n";
+  out +=
+      "- One run cannot show what the size of cells and elements does: halve both and compare.\n\n";
   return out;
 }
 
@@ -234,8 +240,8 @@ std::string what_changes(const ReportInputs& in) {
   Rows rows;
   const Strength s = strength_of(in);
   if (s.area > 0.0)
-    rows.push_back({"residual strength S_r", fmt::format("{:.3g} kPa on average", s.mean / 1e3),
-                    "lower"});
+    rows.push_back(
+        {"residual strength S_r", fmt::format("{:.3g} kPa on average", s.mean / 1e3), "lower"});
   const ToldStage* map = find_stage(in.stages, "transfer.map");
   const ToldStage* flow = find_stage(in.stages, "mpm.run");
   const auto add = [&](const ToldStage* stage, const char* key, const char* name, const char* way) {
@@ -244,11 +250,13 @@ std::string what_changes(const ReportInputs& in) {
   };
   add(map, "c_soft_ratio", "softening c_soft / S_r", "lower");
   if (s.area > 0.0)
-    rows.push_back({"liquefied part of the section", fmt::format("{:.0f} m2", s.area), "deeper, wider"});
+    rows.push_back(
+        {"liquefied part of the section", fmt::format("{:.0f} m2", s.area), "deeper, wider"});
   if (const ToldStage* motion = find_stage(in.stages, "motion.prepare"))
-    rows.push_back({"motion", fmt::format("PGA {:.2g} g, Tm {:.2g} s",
-                                          number_in(motion->facts, "motion_pga_m_s2") / 9.81,
-                                          number_in(motion->facts, "motion_tm_s")),
+    rows.push_back({"motion",
+                    fmt::format("PGA {:.2g} g, Tm {:.2g} s",
+                                number_in(motion->facts, "motion_pga_m_s2") / 9.81,
+                                number_in(motion->facts, "motion_tm_s")),
                     "stronger, of longer period: more liquefies"});
   if (in.zone.transfer_frame >= 0)
     rows.push_back({"time of transfer", fmt::format("{:.4g} s", in.zone.transfer_time),

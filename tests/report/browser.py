@@ -36,7 +36,8 @@ class Browser:
         os.close(to_browser)
         os.close(from_browser)
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
-        self.session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        attached = self.call("Target.attachToTarget", targetId=target, flatten=True)
+        self.session = attached["sessionId"]
         for part in ("Page", "Runtime", "Log", "Network"):
             self.call(f"{part}.enable")
 
@@ -67,7 +68,8 @@ class Browser:
             detail = params["exceptionDetails"]
             self.said.append(detail.get("exception", {}).get("description") or detail["text"])
         elif method == "Runtime.consoleAPICalled" and params["type"] in ("error", "warning"):
-            self.said.append(" ".join(str(a.get("value", a.get("description"))) for a in params["args"]))
+            words = (str(a.get("value", a.get("description"))) for a in params["args"])
+            self.said.append(" ".join(words))
         elif method == "Log.entryAdded" and params["entry"]["level"] in ("error", "warning"):
             self.said.append(params["entry"]["text"])
         elif method == "Network.requestWillBeSent":
@@ -92,7 +94,8 @@ class Browser:
 
     def run(self, code):
         """The value of an expression in the page, of a promise when it is kept."""
-        answer = self.call("Runtime.evaluate", expression=code, returnByValue=True, awaitPromise=True)
+        answer = self.call("Runtime.evaluate", expression=code, returnByValue=True,
+                           awaitPromise=True)
         if "exceptionDetails" in answer:
             raise RuntimeError(answer["exceptionDetails"]["exception"]["description"])
         return answer["result"].get("value")
@@ -122,9 +125,5 @@ class Browser:
         self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, **extra)
 
     def picture(self, path, whole=True):
-        data = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=whole)["data"]
-        pathlib.Path(path).write_bytes(base64.b64decode(data))
-
-    def pdf(self, path):
-        data = self.call("Page.printToPDF", printBackground=True, preferCSSPageSize=True)["data"]
-        pathlib.Path(path).write_bytes(base64.b64decode(data))
+        answer = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=whole)
+        pathlib.Path(path).write_bytes(base64.b64decode(answer["data"]))

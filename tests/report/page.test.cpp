@@ -11,10 +11,10 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <zlib.h>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
-#include <zlib.h>
 
 using namespace flowslide;
 using nlohmann::json;
@@ -65,8 +65,9 @@ std::map<std::string, std::vector<double>> unpacked(const json& index, const std
       const unsigned left = column ? level[i - 1] : 0;
       const unsigned corner = row && column ? level[i - columns - 1] : 0;
       level[i] = (above + left - corner + difference) & mask;
-      values.push_back(level[i] == mask ? kUnset
-                                        : e["lowest"].get<double>() + level[i] * e["step"].get<double>());
+      values.push_back(level[i] == mask
+                           ? kUnset
+                           : e["lowest"].get<double>() + level[i] * e["step"].get<double>());
     }
     at += n * (wide ? 2 : 1);
   }
@@ -207,7 +208,8 @@ TEST_CASE("Frames are chosen where the flow is fast") {
   CHECK(chosen.front() == 0);
   CHECK(chosen.back() == 200);
   CHECK(std::is_sorted(chosen.begin(), chosen.end()));
-  const auto early = std::count_if(chosen.begin(), chosen.end(), [&](auto f) { return times[f] < 10.0; });
+  const auto early =
+      std::count_if(chosen.begin(), chosen.end(), [&](auto f) { return times[f] < 10.0; });
   CHECK(early >= 13);  // 200 of 218 m in 10 of 100 s: 0.75 * 0.92 + 0.25 * 0.1 = 71 % of the way
   CHECK(choose_frames(times, samples, 500).size() == times.size());
   CHECK(choose_frames(times, samples, 2) == std::vector<std::size_t>{0, 200});
@@ -239,7 +241,8 @@ TEST_CASE("A page holds the run: its numbers come back from the file") {
   GroundMotion shock{.dt = 0.01, .acceleration = {}, .origin = "a shock"};
   for (int i = 0; i < 400; ++i) shock.acceleration.push_back(2.0 * std::sin(0.1 * i));
   c.motion = shock;
-  c.stages = {{"flow", "mpm.run", "cell = 2.5 m\nground.surface = [[-10 m, -5 m], [80 m, 0 m]]\n", "{}"}};
+  c.stages = {
+      {"flow", "mpm.run", "cell = 2.5 m\nground.surface = [[-10 m, -5 m], [80 m, 0 m]]\n", "{}"}};
   const std::string page = c.page();
   CHECK(badly_nested(page) == "");
   CHECK(page.size() < 1'000'000);
@@ -259,7 +262,8 @@ TEST_CASE("A page holds the run: its numbers come back from the file") {
   for (std::size_t i = 0; i < n; ++i) shown += back["points.x"][2 * n + i];
   CHECK(shown / double(n) == Approx(mean / double(n)).margin(dam_case::kSpacing / 64));
   double far = -1e9;
-  for (const auto& x : c.particles.position) far = std::max(far, dam_case::flowed(x, 200.0, 1.0)[0]);
+  for (const auto& x : c.particles.position)
+    far = std::max(far, dam_case::flowed(x, 200.0, 1.0)[0]);
   const auto last = back["points.x"].begin() + static_cast<std::ptrdiff_t>(2 * n);
   CHECK(*std::max_element(last, back["points.x"].end()) ==
         Approx(far).margin(dam_case::kSpacing / 64));
@@ -342,8 +346,10 @@ TEST_CASE("Child of the browser test: writes a page", "[.page-child]") {
   GroundMotion shock{.dt = 0.01, .acceleration = {}, .origin = "a shock"};
   for (int i = 0; i < 400; ++i) shock.acceleration.push_back(2.0 * std::sin(0.1 * i));
   c.motion = shock;
-  c.stages = {{"flow", "mpm.run", "cell = 2.5 m\nground.surface = [[-140 m, -5 m], [85 m, -5 m], "
-               "[85 m, 0 m]]\n", "{}"}};
+  c.stages = {{"flow", "mpm.run",
+               "cell = 2.5 m\nground.surface = [[-140 m, -5 m], [85 m, -5 m], "
+               "[85 m, 0 m]]\n",
+               "{}"}};
   const char* out = std::getenv("FLOWSLIDE_PAGE");
   REQUIRE(out);
   std::ofstream(out) << c.page();

@@ -31,9 +31,9 @@ def check_text(page):
 
 
 def check_charts(page):
-    names = page.run("[...document.querySelectorAll('.panel figcaption b')].map(e => e.textContent)")
-    for name in ("Runout", "Speed", "Energies", "Motion", "Response spectrum", "Depth of liquefaction",
-                 "Crest"):
+    names = page.run("[...document.querySelectorAll('.panel b')].map(e => e.textContent)")
+    for name in ("Runout", "Speed", "Energies", "Depth along the section", "Motion",
+                 "Response spectrum", "Depth of liquefaction", "Crest"):
         expect(f"chart {name}", name in names)
     expect("every chart has a curve", page.run(
         "[...document.querySelectorAll('.panel')].every(p => "
@@ -43,12 +43,12 @@ def check_charts(page):
     page.key("ArrowRight")
     tip = page.run("document.querySelector('.panel .tip').textContent")
     expect(f"a chart tells its values ({tip})", "runout" in tip and "m" in tip)
-    before = page.run("document.querySelector('.panel path.line').getAttribute('d')")
+    curve = "document.querySelector('.panel path.line').getAttribute('d')"
+    before = page.run(curve)
     page.key("+")
-    expect("a chart zooms by key", before != page.run(
-        "document.querySelector('.panel path.line').getAttribute('d')"))
+    expect("a chart zooms by key", before != page.run(curve))
     page.key("0")
-    expect("and back", before == page.run("document.querySelector('.panel path.line').getAttribute('d')"))
+    expect("and back", before == page.run(curve))
 
 
 def readout(page):
@@ -60,7 +60,8 @@ def coloured(page, selector):
     return page.run(
         "(() => { const c = document.querySelector('%s'), d = c.getContext('2d')"
         ".getImageData(0, 0, c.width, c.height).data; let n = 0; "
-        "for (let i = 3; i < d.length; i += 4) n += d[i] > 0; return 4 * n / d.length; })()" % selector)
+        "for (let i = 3; i < d.length; i += 4) n += d[i] > 0; return 4 * n / d.length; })()"
+        % selector)
 
 
 def check_player(page):
@@ -77,7 +78,8 @@ def check_player(page):
     page.wait("!document.querySelector('.readout').textContent.startsWith('t = 0.00')")
     page.key("End")
     runout = page.run("JSON.parse(document.getElementById('run').textContent).runout_m")
-    expect(f"and to the end ({at_end})", readout(page) == at_end and f"runout {runout:.1f}" in at_end)
+    expect(f"and to the end ({at_end})",
+           readout(page) == at_end and f"runout {runout:.1f}" in at_end)
     picture = "document.querySelector('#player .plot canvas').toDataURL()"
     before = page.run(picture)
     for mode in ("material", "strength", "speed"):
@@ -86,8 +88,9 @@ def check_player(page):
         now = page.run(picture)
         expect(f"colours by {mode}", now != before)
         before = now
-    box = page.run("(() => { const b = document.querySelector('#player canvas'); b.scrollIntoView();"
-                   " const r = b.getBoundingClientRect(); return [r.left, r.top, r.width, r.height]; })()")
+    box = page.run("(() => { const b = document.querySelector('#player canvas'); "
+                   "b.scrollIntoView(); const r = b.getBoundingClientRect(); "
+                   "return [r.left, r.top, r.width, r.height]; })()")
     page.point_at(box[0] + 0.3 * box[2], box[1] + 0.72 * box[3])
     tip = page.run("document.querySelector('#player .tip').textContent")
     expect(f"a point tells its values ({tip})", "displacement" in tip)
@@ -103,7 +106,8 @@ def main(program, pictures=None):
         subprocess.run([program, "[.page-child]"], check=True, stdout=subprocess.DEVNULL,
                        env={**os.environ, "FLOWSLIDE_PAGE": str(path)})
         with Browser(chromium) as page:
-            for name, width, dark, phone in (("desktop", 1280, False, False), ("phone", 390, False, True),
+            for name, width, dark, phone in (("desktop", 1280, False, False),
+                                             ("phone", 390, False, True),
                                              ("dark", 1280, True, False)):
                 page.open(path, width, dark=dark, phone=phone)
                 expect(f"{name}: numbers are unpacked",
@@ -114,7 +118,8 @@ def main(program, pictures=None):
             page.open(path, 1280)
             check_charts(page)
             check_player(page)
-            expect("the console is silent, and nothing is loaded: " + "; ".join(page.said), not page.said)
+            expect("the console is silent, and nothing is loaded: " + "; ".join(page.said),
+                   not page.said)
             # Control: a script that is not the page's own does not run, and the console tells.
             page.run("document.body.append(Object.assign(document.createElement('script'), "
                      "{textContent: 'window.trapped = 1'}))")

@@ -14,14 +14,17 @@ namespace {
 
 const std::vector<ToldStage> kStages{
     {"motion", "motion.prepare", "preset = \"x\"\n",
-     R"({"motion_pga_m_s2": 2.943, "motion_tm_s": 0.39, "motion_arias_m_s": 0.56, "motion_d5_95_s": 10.4,
+     R"({"motion_pga_m_s2": 2.943, "motion_tm_s": 0.39, "motion_arias_m_s": 0.56,
+         "motion_d5_95_s": 10.4,
          "motion_pgv_m_s": 0.167})"},
     {"shake", "fem.run",
-     "materials = table of [\"clay \\\"x\\\"\", \"sand\"]\nmaterials.\"clay \\\"x\\\"\".density = 1900 kg/m3\n"
+     "materials = table of [\"clay \\\"x\\\"\", \"sand\"]\nmaterials.\"clay \\\"x\\\"\".density = "
+     "1900 kg/m3\n"
      "materials.\"sand\".density = 1700 kg/m3\nmaterials.\"sand\".pm4sand = given\n"
      "materials.\"sand\".pm4sand.phi_cv = 0.5759586531581288 rad\n",
      "{}"},
-    {"zone", "transfer.zone", "strength.table = [[25000 Pa, 1000 Pa], [150000 Pa, 4000 Pa]]\n", "{}"},
+    {"zone", "transfer.zone", "strength.table = [[25000 Pa, 1000 Pa], [150000 Pa, 4000 Pa]]\n",
+     "{}"},
     {"map", "transfer.map",
      "c_soft_ratio = 0.5\nmaterials.\"base\".tags = [2, 5]\nmaterials.\"sand\".tags = [1]\n"
      "materials.\"sand\".mohr_coulomb.youngs_modulus = 2e+07 Pa\n",
@@ -94,8 +97,12 @@ TEST_CASE("A report tells motion, mesh, soils, strengths and grid without the wo
   CHECK_THAT(words, Contains("Under the pond the soil liquefied to a depth of 18.0 m"));
   CHECK_THAT(words, Contains("70 % of it went into the soil, 30 % into friction"));
   CHECK_THAT(words, Contains("| cell size | 2.5 m |"));
-  CHECK_THAT(told_inputs({.history = history, .zone = zone, .particles = particles,
-                          .audit = "", .flow = flow, .provenance = {}}),
+  CHECK_THAT(told_inputs({.history = history,
+                          .zone = zone,
+                          .particles = particles,
+                          .audit = "",
+                          .flow = flow,
+                          .provenance = {}}),
              Contains("not known to the report"));
 }
 

@@ -175,10 +175,12 @@ TEST_CASE("A stage that tells of earlier ones knows their settings, and runs aga
   Bench bench;
   bench.types.push_back(stage_type<ChroniclerStage>());
   const auto run = [&](const char* value) {
-    bench.scratch.write("w.yaml", fmt::format(
-        "schema: 1\nname: w\nstages:\n  a: {{uses: sample.odd, with: {{value: {}}}}}\n"
-        "  other: {{uses: sample.odd}}\n"
-        "  b: {{uses: sample.chronicler, in: {{number: a.number}}}}\n", value));
+    bench.scratch.write(
+        "w.yaml",
+        fmt::format("schema: 1\nname: w\nstages:\n  a: {{uses: sample.odd, with: {{value: {}}}}}\n"
+                    "  other: {{uses: sample.odd}}\n"
+                    "  b: {{uses: sample.chronicler, in: {{number: a.number}}}}\n",
+                    value));
     std::string why;
     RunEvents events;
     events.decided = [&](std::string_view stage, const Decision& d) {
@@ -194,9 +196,10 @@ TEST_CASE("A stage that tells of earlier ones knows their settings, and runs aga
   const auto key = bench.result()["stages"]["b"]["key"].get<std::string>().substr(0, 16);
   CHECK(read_text_file(bench.scratch / "out/stages/b" / key / "text.txt") ==
         "a sample.odd value = 2\nlimit = 10\n1");  // and nothing of the stage that does not feed it
-  CHECK(plan_workflow(load_workflow(bench.scratch / "w.yaml", {}, bench.types), bench.scratch / "out")
-            .back()
-            .decision.action == Action::reuse);
+  CHECK(
+      plan_workflow(load_workflow(bench.scratch / "w.yaml", {}, bench.types), bench.scratch / "out")
+          .back()
+          .decision.action == Action::reuse);
 }
 
 TEST_CASE("Errors of a look at the files stand at the stage's settings, one to a line") {

@@ -38,7 +38,8 @@ void add_to_inputs(std::map<std::string, std::string>& inputs,
   std::string text;
   for (const EarlierStage& e : earlier) {
     text += fmt::format("{}\n{}\n{}\n", e.name, e.uses, e.settings);
-    for (const auto& [port, output] : e.outputs) text += fmt::format("{} {}\n", port, output.sha256);
+    for (const auto& [port, output] : e.outputs)
+      text += fmt::format("{} {}\n", port, output.sha256);
   }
   inputs[kEarlierInput] = sha256(text);
 }

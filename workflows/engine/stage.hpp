@@ -94,10 +94,10 @@ struct Schema<NoSettings> {
 /// other stages, and returns what later stages may compare theirs with. With `static constexpr bool
 /// reads_warnings = true`, run() gets the warnings of earlier stages, and other warnings make
 /// another result; with `static constexpr bool reads_earlier = true`, it gets the settings and
-/// results of all stages that feed it, likewise. `static std::vector<std::string> programs(const Config&)` names what the stage
-/// would start at the word of a workflow file; the engine asks for the user's. run() must give the
-/// same bytes for the same settings and inputs, whatever the number of threads. With `checkpoints`,
-/// run() looks into context.folder for its own checkpoint first.
+/// results of all stages that feed it, likewise. `static std::vector<std::string> programs(const
+/// Config&)` names what the stage would start at the word of a workflow file; the engine asks for
+/// the user's. run() must give the same bytes for the same settings and inputs, whatever the number
+/// of threads. With `checkpoints`, run() looks into context.folder for its own checkpoint first.
 template <class S>
 concept Stage = requires(const RunContext& context, const typename S::Config& config,
                          const typename S::Inputs& in, const typename S::Outputs& out) {

@@ -95,8 +95,7 @@ struct ReportStage {
                         .date = date_of_today()};
     for (const EarlierStage& s : context.earlier)
       inputs.stages.push_back({s.name, s.uses, s.settings, s.facts});
-    const ReportFacts facts =
-        write_report(inputs, config, out.report.path, context.progress);
+    const ReportFacts facts = write_report(inputs, config, out.report.path, context.progress);
     StageResult result{.facts = to_json(facts), .publish = {"report"}, .warnings = facts.warnings};
     for (const char* file : {"report/flow.pvd", "report/zone.pvd"})
       if (std::filesystem::exists(context.folder / file)) result.publish.emplace_back(file);

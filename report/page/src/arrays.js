@@ -2,8 +2,10 @@
 
 async function inflate(base64) {
   if (typeof DecompressionStream === "undefined")
-    throw new Error("This browser cannot unpack the numbers of this page (it lacks " +
-      "DecompressionStream). Open the file with Chrome 103, Firefox 113, Safari 16.4 or newer.");
+    throw new Error(
+      "This browser cannot unpack the numbers of this page (it lacks " +
+        "DecompressionStream). Open the file with Chrome 103, Firefox 113, Safari 16.4 or newer.",
+    );
   const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
@@ -11,12 +13,15 @@ async function inflate(base64) {
 
 /** One array: `at` is the offset of its byte planes. */
 function unpackArray(bytes, at, { bits, rows, columns, lowest, step }) {
-  const size = rows * columns, wide = bits === 16;
+  const size = rows * columns,
+    wide = bits === 16;
   const unset = wide ? 0xffff : 0xff;
   const values = new Float32Array(size);
-  let before = new Uint16Array(columns), row = new Uint16Array(columns);
+  let before = new Uint16Array(columns),
+    row = new Uint16Array(columns);
   for (let r = 0, i = 0; r < rows; ++r) {
-    let left = 0, leftBefore = 0;
+    let left = 0,
+      leftBefore = 0;
     for (let c = 0; c < columns; ++c, ++i) {
       const z = wide ? bytes[at + i] | (bytes[at + size + i] << 8) : bytes[at + i];
       const difference = (z >>> 1) ^ -(z & 1);

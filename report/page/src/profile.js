@@ -2,7 +2,8 @@
 
 class Profile {
   constructor(run, points, [left, right]) {
-    const wide = Math.max(5 * points.spacing, (right - left) / 200), bins = Math.ceil((right - left) / wide);
+    const wide = Math.max(5 * points.spacing, (right - left) / 200),
+      bins = Math.ceil((right - left) / wide);
     Object.assign(this, { points, left, wide, bins });
     const counts = run.materials.map((m) => m.counts);
     this.depth = Array.from({ length: points.frames }, () => new Float32Array(bins));
@@ -11,20 +12,34 @@ class Profile {
     this.x = Array.from({ length: bins }, (_, b) => left + (b + 0.5) * wide);
     const largest = (rows) => this.x.map((_, b) => Math.max(...rows.map((row) => row[b])));
     const x = { label: "x", unit: "m" };
-    this.charts = [["Depth along the section", "depth of what moved", "m", this.depth, LINE.blue],
-      ["Speed along the section", "mean speed of what moved", "m/s", this.speed, LINE.orange]].map(
-      ([title, label, unit, rows, colour]) => new Chart({ title, x, group: "along",
-        y: { label, unit, zero: true, span: 0.1 },
-        series: [{ name: "at this instant", x: this.x, y: rows[points.frames - 1], colour },
-          { name: "largest of all", x: this.x, y: largest(rows), colour: LINE.ink, dash: "2 3" }],
-        marks: run.toe_m === null ? [] : [{ x: run.toe_m, text: "toe" }] }));
+    this.charts = [
+      ["Depth along the section", "depth of what moved", "m", this.depth, LINE.blue],
+      ["Speed along the section", "mean speed of what moved", "m/s", this.speed, LINE.orange],
+    ].map(
+      ([title, label, unit, rows, colour]) =>
+        new Chart({
+          title,
+          x,
+          group: "along",
+          y: { label, unit, zero: true, span: 0.1 },
+          series: [
+            { name: "at this instant", x: this.x, y: rows[points.frames - 1], colour },
+            { name: "largest of all", x: this.x, y: largest(rows), colour: LINE.ink, dash: "2 3" },
+          ],
+          marks: run.toe_m === null ? [] : [{ x: run.toe_m, text: "toe" }],
+        }),
+    );
   }
 
   fill(f, counts) {
-    const p = this.points, depth = this.depth[f], speed = this.speed[f], a = f * p.count;
+    const p = this.points,
+      depth = this.depth[f],
+      speed = this.speed[f],
+      a = f * p.count;
     const number = new Uint32Array(this.bins);
     for (let i = 0; i < p.count; ++i) {
-      const x = p.xs[a + i], b = Math.floor((x - this.left) / this.wide);
+      const x = p.xs[a + i],
+        b = Math.floor((x - this.left) / this.wide);
       if (b < 0 || b >= this.bins || !counts[p.material[i]]) continue;
       if (Math.hypot(x - p.x0[i], p.ys[a + i] - p.y0[i]) < p.moved) continue;
       ++number[b];
@@ -38,7 +53,8 @@ class Profile {
 
   /** The stored state nearest to a time. */
   show(time) {
-    const { times } = this.points, k = indexBefore(times, time);
+    const { times } = this.points,
+      k = indexBefore(times, time);
     const frame = k + 1 < times.length && times[k + 1] - time < time - times[k] ? k + 1 : k;
     if (frame === this.frame) return;
     this.frame = frame;

@@ -25,7 +25,8 @@ function ticks(low, high, count) {
   const power = 10 ** Math.floor(Math.log10(raw));
   const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= raw * 0.999);
   const out = [];
-  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) out.push(k * step);
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k)
+    out.push(k * step);
   return out;
 }
 
@@ -33,7 +34,8 @@ function ticks(low, high, count) {
 function tickText(value, step) {
   if (Math.abs(value) < 1e-12 * Math.abs(step) || value === 0) return "0";
   const size = Math.max(Math.abs(value), Math.abs(step));
-  if (size >= 1e5 || size < 1e-3) return value.toExponential(1).replace("e+", "e").replace("-", "\u2212");
+  if (size >= 1e5 || size < 1e-3)
+    return value.toExponential(1).replace("e+", "e").replace("-", "\u2212");
   const digits = Math.max(0, Math.min(6, -Math.floor(Math.log10(Math.abs(step)) + 1e-9)));
   return value.toFixed(digits).replace("-", "\u2212");
 }
@@ -41,14 +43,21 @@ function tickText(value, step) {
 function number(value, unit = "") {
   if (!isFinite(value)) return "\u2013";
   const size = Math.abs(value);
-  const text = size !== 0 && (size < 1e-3 || size >= 1e6) ? value.toExponential(2)
-    : size >= 100 ? value.toFixed(0) : size >= 10 ? value.toFixed(1) : value.toFixed(2);
+  const text =
+    size !== 0 && (size < 1e-3 || size >= 1e6)
+      ? value.toExponential(2)
+      : size >= 100
+        ? value.toFixed(0)
+        : size >= 10
+          ? value.toFixed(1)
+          : value.toFixed(2);
   return text.replace("-", "\u2212") + (unit ? "\u202f" + unit : "");
 }
 
 /** Index k with x[k] <= value < x[k + 1], kept inside. */
 function indexBefore(x, value) {
-  let low = 0, high = x.length - 1;
+  let low = 0,
+    high = x.length - 1;
   while (high - low > 1) {
     const middle = (low + high) >> 1;
     if (x[middle] <= value) low = middle;
@@ -65,7 +74,8 @@ function interpolated(x, y, at) {
 }
 
 function extent(values) {
-  let low = Infinity, high = -Infinity;
+  let low = Infinity,
+    high = -Infinity;
   for (const v of values) {
     if (v < low) low = v;
     if (v > high) high = v;

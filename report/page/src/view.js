@@ -19,12 +19,20 @@ class View {
   /** Buttons for the windows and the stretch of heights. */
   controls() {
     const buttons = Object.entries(this.windows).map(([name, window]) =>
-      make("button", { type: "button", onclick: () => this.show(window) }, name));
-    this.stretchButton = make("button", { type: "button", title: "Stretch heights",
-      onclick: () => {
-        this.stretch = this.heights === 1 ? 2 : this.heights === 2 ? 4 : 1;
-        this.fit();
-      } }, "");
+      make("button", { type: "button", onclick: () => this.show(window) }, name),
+    );
+    this.stretchButton = make(
+      "button",
+      {
+        type: "button",
+        title: "Stretch heights",
+        onclick: () => {
+          this.stretch = this.heights === 1 ? 2 : this.heights === 2 ? 4 : 1;
+          this.fit();
+        },
+      },
+      "",
+    );
     return make("span", { class: "buttons" }, ...buttons, this.stretchButton);
   }
 
@@ -58,10 +66,18 @@ class View {
     this.redraw();
   }
 
-  px(x) { return VIEW.left + (x - this.x0) * this.sx; }
-  py(y) { return VIEW.top + this.high - (y - this.y0) * this.sy; }
-  x(px) { return this.x0 + (px - VIEW.left) / this.sx; }
-  y(py) { return this.y0 + (VIEW.top + this.high - py) / this.sy; }
+  px(x) {
+    return VIEW.left + (x - this.x0) * this.sx;
+  }
+  py(y) {
+    return VIEW.top + this.high - (y - this.y0) * this.sy;
+  }
+  x(px) {
+    return this.x0 + (px - VIEW.left) / this.sx;
+  }
+  y(py) {
+    return this.y0 + (VIEW.top + this.high - py) / this.sy;
+  }
 
   redraw() {
     if (!this.width) return;
@@ -80,9 +96,14 @@ class View {
 
   /** Rigid ground, which goes on level beyond its ends. */
   drawGround() {
-    const c = this.context, line = this.run.ground;
+    const c = this.context,
+      line = this.run.ground;
     if (!line.length) return;
-    const ends = [[this.x0, line[0][1]], ...line, [this.x(VIEW.left + this.wide), line[line.length - 1][1]]];
+    const ends = [
+      [this.x0, line[0][1]],
+      ...line,
+      [this.x(VIEW.left + this.wide), line[line.length - 1][1]],
+    ];
     const path = ends.filter(([x]) => x >= this.x0 || x === line[0][0]);
     c.beginPath();
     path.forEach(([x, y], i) => c[i ? "lineTo" : "moveTo"](this.px(x), this.py(y)));
@@ -99,7 +120,9 @@ class View {
   }
 
   drawAxes() {
-    const c = this.context, bottom = VIEW.top + this.high, right = VIEW.left + this.wide;
+    const c = this.context,
+      bottom = VIEW.top + this.high,
+      right = VIEW.left + this.wide;
     c.strokeStyle = c.fillStyle = cssVariable("--soft");
     c.lineWidth = 1;
     c.font = `11px ${cssVariable("--sans")}`;
@@ -134,7 +157,10 @@ class View {
     c.beginPath();
     let open = false;
     for (const [x, y] of points) {
-      if (y === null || !isFinite(y)) { open = false; continue; }
+      if (y === null || !isFinite(y)) {
+        open = false;
+        continue;
+      }
       c[open ? "lineTo" : "moveTo"](this.px(x), this.py(y));
       open = true;
     }
@@ -164,7 +190,9 @@ class View {
 
   /** Dashed upright with words at its foot or head. */
   upright(x, text, colour, level = 0) {
-    const c = this.context, at = this.px(x), end = at > VIEW.left + this.wide - 110;
+    const c = this.context,
+      at = this.px(x),
+      end = at > VIEW.left + this.wide - 110;
     c.strokeStyle = c.fillStyle = colour;
     c.setLineDash([4, 3]);
     c.beginPath();
@@ -178,8 +206,9 @@ class View {
   }
 
   scaleAt(factor, px, py) {
-    const x = this.x(px), y = this.y(py);
-    const most = 400 / (this.range[1] - this.range[0]) * 20;
+    const x = this.x(px),
+      y = this.y(py);
+    const most = (400 / (this.range[1] - this.range[0])) * 20;
     factor = Math.min(Math.max(factor, 0.2), 5);
     const sx = Math.min(Math.max(this.sx * factor, this.wide / 4000), most);
     this.sy *= sx / this.sx;
@@ -195,11 +224,15 @@ class View {
       return [event.clientX - box.left, event.clientY - box.top];
     };
     let last = null;
-    this.canvas.addEventListener("wheel", (event) => {
-      if (!event.ctrlKey && !event.metaKey && document.activeElement !== this.canvas) return;
-      event.preventDefault();
-      this.scaleAt(Math.exp(-0.0015 * event.deltaY), ...place(event));
-    }, { passive: false });
+    this.canvas.addEventListener(
+      "wheel",
+      (event) => {
+        if (!event.ctrlKey && !event.metaKey && document.activeElement !== this.canvas) return;
+        event.preventDefault();
+        this.scaleAt(Math.exp(-0.0015 * event.deltaY), ...place(event));
+      },
+      { passive: false },
+    );
     this.canvas.addEventListener("pointerdown", (event) => {
       if (event.pointerType !== "mouse" || event.button !== 0) return;
       last = place(event);
@@ -215,7 +248,10 @@ class View {
         this.redraw();
       } else this.hover(...at);
     });
-    for (const name of ["pointerup", "pointercancel"]) this.canvas.addEventListener(name, () => { last = null; });
+    for (const name of ["pointerup", "pointercancel"])
+      this.canvas.addEventListener(name, () => {
+        last = null;
+      });
     this.canvas.addEventListener("pointerleave", () => this.unhover());
     this.canvas.addEventListener("dblclick", () => this.fit());
     this.canvas.addEventListener("keydown", (event) => {
@@ -224,7 +260,8 @@ class View {
       else if (event.key === "-") this.scaleAt(1 / 1.3, ...middle);
       else if (event.key === "0") this.fit();
       else if (event.shiftKey && event.key.startsWith("Arrow")) {
-        const step = 40, { key } = event;
+        const step = 40,
+          { key } = event;
         if (key === "ArrowLeft") this.x0 -= step / this.sx;
         if (key === "ArrowRight") this.x0 += step / this.sx;
         if (key === "ArrowUp") this.y0 += step / this.sy;
@@ -237,12 +274,17 @@ class View {
   }
 
   hover(px, py) {
-    const inside = px > VIEW.left && px < VIEW.left + this.wide && py > VIEW.top && py < VIEW.top + this.high;
+    const inside =
+      px > VIEW.left && px < VIEW.left + this.wide && py > VIEW.top && py < VIEW.top + this.high;
     const found = inside ? this.find(this, this.x(px), this.y(py)) : null;
     this.tip.hidden = !found;
     if (found) {
-      this.tip.replaceChildren(make("div", { class: "head" }, found.head),
-        ...found.rows.map(([name, value]) => make("div", {}, make("span", {}, name), make("b", {}, value))));
+      this.tip.replaceChildren(
+        make("div", { class: "head" }, found.head),
+        ...found.rows.map(([name, value]) =>
+          make("div", {}, make("span", {}, name), make("b", {}, value)),
+        ),
+      );
       const right = px > this.width / 2;
       this.tip.style.left = right ? "" : `${px + 14}px`;
       this.tip.style.right = right ? `${this.width - px + 14}px` : "";
@@ -260,23 +302,45 @@ class View {
 /** Bar with its ends, or one swatch per entry of a list [{name, colour}]. */
 function colourKey(scale) {
   if (scale.list)
-    return make("div", { class: "scale list" }, ...scale.list.map(({ name, colour }) => {
-      const swatch = make("i", {});
-      swatch.style.background = colour;
-      return make("span", {}, swatch, name);
-    }), ...(scale.note ? [make("em", {}, scale.note)] : []));
+    return make(
+      "div",
+      { class: "scale list" },
+      ...scale.list.map(({ name, colour }) => {
+        const swatch = make("i", {});
+        swatch.style.background = colour;
+        return make("span", {}, swatch, name);
+      }),
+      ...(scale.note ? [make("em", {}, scale.note)] : []),
+    );
   const bar = make("i", { class: "bar" });
   bar.style.background = scale.gradient;
-  return make("div", { class: "scale" }, make("b", {}, scale.label), make("span", {}, scale.low), bar,
-    make("span", {}, scale.high), ...(scale.note ? [make("em", {}, scale.note)] : []));
+  return make(
+    "div",
+    { class: "scale" },
+    make("b", {}, scale.label),
+    make("span", {}, scale.low),
+    bar,
+    make("span", {}, scale.high),
+    ...(scale.note ? [make("em", {}, scale.note)] : []),
+  );
 }
 
 /** A row of buttons of which one is on. */
 function choice(label, names, chosen, pick) {
-  const buttons = names.map((name) => make("button", { type: "button", "aria-pressed": String(name === chosen),
-    onclick: (event) => {
-      for (const b of buttons) b.setAttribute("aria-pressed", String(b === event.currentTarget));
-      pick(name);
-    } }, name));
+  const buttons = names.map((name) =>
+    make(
+      "button",
+      {
+        type: "button",
+        "aria-pressed": String(name === chosen),
+        onclick: (event) => {
+          for (const b of buttons)
+            b.setAttribute("aria-pressed", String(b === event.currentTarget));
+          pick(name);
+        },
+      },
+      name,
+    ),
+  );
   return make("span", { class: "choice", role: "group", "aria-label": label }, ...buttons);
 }
