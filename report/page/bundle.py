@@ -13,6 +13,8 @@ FOLDER = pathlib.Path(__file__).resolve().parent
 ORDER = ["tools", "arrays", "colours", "chart", "view", "points", "windows", "profile", "player",
          "section", "histories", "page"]
 
+STYLES = ["text", "parts", "paper"]
+
 
 def script():
     found = {path.stem for path in (FOLDER / "src").glob("*.js")}
@@ -27,7 +29,8 @@ def script():
 
 
 def style():
-    lines = [line.strip() for line in (FOLDER / "src/page.css").read_text().splitlines()]
+    sheets = [(FOLDER / "src" / f"{name}.css").read_text() for name in STYLES]
+    lines = [line.strip() for line in "\n".join(sheets).splitlines()]
     return "\n".join(line for line in lines if line) + "\n"
 
 
