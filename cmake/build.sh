@@ -141,3 +141,5 @@ fi
   quietly cmake --preset "$preset"
 export NINJA_STATUS='[%f/%t] '
 with_progress "compiling" of_ninja cmake --build --preset "$preset" --target "$@"
+# The line of progress swallows what the compiler says: there should be nothing.
+sed -n '/warning:/,+3p' "$log"

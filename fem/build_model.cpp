@@ -56,8 +56,8 @@ std::int32_t element_of(const QuadMesh& mesh, const Edge& edge) {
 
 /// A column of soil beside each edge of an end, one element wide; its far side moves as its near
 /// side, so that it shears but does not stretch.
-void add_column(Model& r, Outline& outline, Ties& ties, std::vector<Edge> edges, double shift,
-                double thickness) {
+void add_column(Model& r, Outline& outline, Ties& ties, const std::vector<Edge>& edges,
+                double shift, double thickness) {
   std::map<std::int32_t, std::int32_t> far;
   const auto far_of = [&](std::int32_t node) {
     const auto [at, is_new] = far.try_emplace(node, static_cast<std::int32_t>(r.mesh.num_nodes()));

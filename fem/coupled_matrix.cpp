@@ -47,6 +47,8 @@ CoupledMatrix::CoupledMatrix(const Solver& s) : pressures_(s.water.num_equations
       for (const std::int32_t j : r)
         if (j >= 0 && i > j) terms.emplace_back(i, j, 0.0);
   }
+  signed_.resize(size());
+  ordered_.resize(size());
   matrix_.resize(size(), size());
   matrix_.setFromTriplets(terms.begin(), terms.end());
   matrix_.makeCompressed();
@@ -103,12 +105,18 @@ void CoupledMatrix::factorise(const Solver& s, double dt, double theta) {
         "the matrix of the implicit step at {:.4f} s is singular (stiffness or storage has become "
         "zero or is not a number) look at the states before",
         s.state.time));
+  inverse_diagonal_ = factor_->vectorD().cwiseInverse();
 }
 
-Eigen::VectorXd CoupledMatrix::solve(const Eigen::VectorXd& residual) const {
-  Eigen::VectorXd b = residual;
-  b.tail(pressures_) *= -1.0;
-  return factor_->solve(b);
+void CoupledMatrix::solve(const Eigen::VectorXd& residual, Eigen::VectorXd& change) {
+  signed_ = residual;
+  signed_.tail(pressures_) *= -1.0;
+  // Step by step, because factor_->solve() allocates.
+  ordered_.noalias() = factor_->permutationP() * signed_;
+  factor_->matrixL().solveInPlace(ordered_);
+  ordered_.array() *= inverse_diagonal_.array();
+  factor_->matrixU().solveInPlace(ordered_);
+  change.noalias() = factor_->permutationPinv() * ordered_;
 }
 
 }  // namespace flowslide::fem

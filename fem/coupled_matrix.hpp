@@ -30,8 +30,8 @@ class CoupledMatrix {
   /// Throws NumericsError if the matrix is singular.
   void factorise(const Solver& s, double dt, double theta);
   /// Change of velocities [m/s] and pressures [Pa] that takes away the residuals, those of the
-  /// pressures with their own sign.
-  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& residual) const;
+  /// pressures with their own sign. Does not allocate.
+  void solve(const Eigen::VectorXd& residual, Eigen::VectorXd& change);
 
  private:
   using Sparse = Eigen::SparseMatrix<double>;
@@ -42,6 +42,8 @@ class CoupledMatrix {
   /// Place of each of the 12 x 12 entries of an element in the values of the matrix; -1: none.
   std::vector<std::int32_t> place_;
   std::unique_ptr<Eigen::SimplicialLDLT<Sparse, Eigen::Lower>> factor_;
+  Eigen::VectorXd inverse_diagonal_;  ///< of the factor
+  Eigen::VectorXd signed_, ordered_;  ///< buffers of solve()
 };
 
 }  // namespace flowslide::fem

@@ -69,6 +69,8 @@ ImplicitSteps::ImplicitSteps(const Solver& s, const ImplicitSettings& settings)
       anderson_(energy_weights(s, matrix_), kDepth),
       x_(matrix_.size()),
       residual_(matrix_.size()),
+      change_(matrix_.size()),
+      rate_(Eigen::VectorXd::Zero(s.water.num_equations)),
       middle_(s.model.num_dofs + 1, 0.0),
       internal_(s.model.num_dofs, 0.0) {}
 
@@ -130,11 +132,10 @@ ImplicitSteps::Residual ImplicitSteps::evaluate(Solver& s, const Base& base) {
       t.pressure[i] = (1.0 - theta) * start_.pressure[i] + theta * x_[matrix_.motions() + q];
   if (!follow_soil(s)) return {std::numeric_limits<double>::infinity(), -1};
 
-  Eigen::VectorXd rate = Eigen::VectorXd::Zero(s.water.num_equations);
   for (std::size_t i = 0; i < t.pressure.size(); ++i)
     if (const std::int32_t q = s.water.equation[i]; q < s.water.num_equations)
-      rate[q] = (x_[matrix_.motions() + q] - start_.pressure[i]) / s.dt;
-  residual_.tail(s.water.num_equations) = matrix_.storage() * rate;
+      rate_[q] = (x_[matrix_.motions() + q] - start_.pressure[i]) / s.dt;
+  residual_.tail(s.water.num_equations).noalias() = matrix_.storage() * rate_;
   for (std::int32_t q = 0; q < s.water.num_equations; ++q)
     residual_[matrix_.motions() + q] -= s.water.flow.sum(q, s.entry_flow.data());
   for (std::int32_t u = 0; u < s.model.num_dofs; ++u) {
@@ -172,7 +173,9 @@ bool ImplicitSteps::converge(Solver& s, ImplicitRecord& record, const Base& base
       record.most_iterations = std::max(record.most_iterations, i);
       return true;
     }
-    x_ = anderson_.next(x_, -matrix_.solve(residual_));
+    matrix_.solve(residual_, change_);
+    change_ *= -1.0;
+    anderson_.advance(x_, change_);
   }
   return false;
 }

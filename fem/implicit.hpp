@@ -47,7 +47,8 @@ class ImplicitSteps {
   };
   [[nodiscard]] bool converge(Solver& s, ImplicitRecord& record, const Base& base,
                               const Progress& progress);
-  /// Forces and flows of the trial in `x_`; leaves the laws of `s` at the end of the step.
+  /// Forces and flows of the trial in `x_`; leaves the laws of `s` at the end of the step. Does not
+  /// allocate.
   [[nodiscard]] Residual evaluate(Solver& s, const Base& base);
   [[nodiscard]] bool follow_soil(Solver& s);
   void accept(Solver& s, const Base& base);
@@ -60,6 +61,8 @@ class ImplicitSteps {
   State start_;               ///< before the step
   Eigen::VectorXd x_;         ///< velocities and pressures at the end
   Eigen::VectorXd residual_;  ///< [N], [m3/s]
+  Eigen::VectorXd change_;    ///< of x_ that would take the residuals away, were the soil elastic
+  Eigen::VectorXd rate_;      ///< of the pressures [Pa/s]
   Residual last_;
   std::vector<double> middle_;    ///< velocities in the mean of the step [m/s]
   std::vector<double> internal_;  ///< forces in the mean of the step [N]

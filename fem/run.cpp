@@ -6,11 +6,10 @@
 #include "fem/implicit.hpp"
 #include "fem/run_states.hpp"
 #include "fem/time_step.hpp"
-#include "model/checkpoint_file.hpp"
+#include "model/long_run.hpp"
 #include "model/resumable_history.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -152,98 +151,87 @@ Stepper make_stepper(Solver& s, const FemConfig& config, const GroundMotion& mot
   };
 }
 
-}  // namespace
-
-FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const FemConfig& config,
-                 const FemPaths& paths, int threads, const Progress& progress,
-                 const StopRule& rule) {
-  check(motion);
-  omp_set_num_threads(std::max(1, threads));
-  const double end = config.end.value_or(motion.duration());
-  const std::size_t nodes = section.mesh.num_nodes(), elements = section.mesh.num_elements();
-  check_output(config, end, nodes, elements);
+/// The section at rest under gravity, ready to be shaken.
+Solver make_section_at_rest(const SectionMesh& section, const FemConfig& config,
+                            const Progress& progress, FemFacts& facts) {
   Solver s = make_solver(build_model(section, config), rayleigh(config.damping));
   for (double& g : s.hourglass_shear) g *= config.stabilisation.hourglass;
   progress.poll();
   solve_gravity(s, {config.gravity.permeability.value_or(kUnset), config.gravity.compacts});
   progress.poll();
-  FemFacts facts;
   facts.out_of_balance = out_of_balance(s);
   refresh_moduli(s);
   set_stabilisation(s, config.stabilisation);
   if (config.stabilisation.hourglass_yields) let_hourglass_yield(s);
+  if (auto note = drained_note(section, config, s)) facts.notes.push_back(std::move(*note));
+  return s;
+}
 
-  std::vector<std::string> notes = section.notes;
-  if (auto note = drained_note(section, config, s)) {
-    facts.notes.push_back(*note);
-    notes.push_back(std::move(*note));
-  }
+/// Shaking as a LongRun.
+struct Shaking {
+  Solver& s;
+  RunState& run;
+  const FemConfig& config;
+  double end;  ///< [s]
+  Stepper take_step;
+  const StopRule& rule;
+  std::filesystem::path checkpoint;
+  std::string origin;              ///< fingerprint() of the run
+  std::vector<std::int32_t> base;  ///< nodes
   FemFrame frame;
-  fill(frame, s, nodes, elements);
-  const Stepper step = make_stepper(s, config, motion, end, std::max(1, threads), progress);
-  start_motion(s);
-  s.dt = 1e-12;
-  RunState run{.since = kModuliInterval, .smallest_step = end};
-  const std::string origin = fingerprint(section, motion, config, rule.settings);
-  if (find_checkpoint(paths.checkpoint)) {
-    read_checkpoint(paths.checkpoint, origin, s, run);
-    check_progress(paths.checkpoint, s, run, end, config.output_interval);
+  ResumableHistoryWriter history;
+  double seconds_before = run.seconds;
+  bool stopped = false, stopped_by_rule = false;
+
+  [[nodiscard]] bool ended() const {
+    return s.state.time >= end * (1.0 - 1e-9) || stopped || stopped_by_rule;
   }
-  ResumableHistoryWriter history(
-      paths.history, section.mesh,
-      {"flowslide fem.run", "mean of xx and yy for PM4Sand, elastic plane strain for other laws",
-       notes},
-      frame, static_cast<std::size_t>(run.output - 1));
-  if (rule.ends) {
+  bool step() {
+    const double target = std::min(end, static_cast<double>(run.output) * config.output_interval);
+    const auto reached = [&] { return target - s.state.time <= 1e-9 * config.output_interval; };
+    if (!reached() && take_step(s, run, target - s.state.time)) {
+      run.smallest_step = std::min(run.smallest_step, s.dt);
+      run.largest_step = std::max(run.largest_step, s.dt);
+    }
+    if (!reached()) return false;
+    s.state.time = target;
+    record();
+    return true;
+  }
+  void save(double seconds) {
+    history.flush();
+    run.seconds = seconds_before + seconds;
+    write_checkpoint(checkpoint, origin, s, run);
+  }
+  [[nodiscard]] double share() const { return s.state.time / end; }
+  [[nodiscard]] std::string text() const {
+    return fmt::format("{:.2f} s, step {:.3g} s", s.state.time, s.dt);
+  }
+  [[nodiscard]] std::string place() const {
+    return fmt::format("{:.2f} s of shaking", s.state.time);
+  }
+
+  /// The rule sees the states of before again.
+  void show_states_before() {
+    if (!rule.ends) return;
     rule.ends(frame);
     for (std::int64_t i = 0; i + 1 < run.output; ++i)
       rule.ends(history.frame(static_cast<std::size_t>(i)));
   }
 
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point start = Clock::now();
-  const double seconds_before = run.seconds;
-  Clock::time_point last_checkpoint = start;
-  const auto seconds_since = [](Clock::time_point t) {
-    return std::chrono::duration<double>(Clock::now() - t).count();
-  };
-  const auto checkpoint = [&] {
-    history.flush();
-    run.seconds = seconds_before + seconds_since(start);
-    write_checkpoint(paths.checkpoint, origin, s, run);
-    last_checkpoint = Clock::now();
-  };
-  const std::vector<std::int32_t> base = nodes_of(find_set(section, "base"));
-  while (s.state.time < end * (1.0 - 1e-9) && !facts.stopped && !facts.stopped_by_rule) {
-    const double target = std::min(end, static_cast<double>(run.output) * config.output_interval);
-    while (target - s.state.time > 1e-9 * config.output_interval) {
-      if (step(s, run, target - s.state.time)) {
-        run.smallest_step = std::min(run.smallest_step, s.dt);
-        run.largest_step = std::max(run.largest_step, s.dt);
-      }
-      if (progress.should_stop()) {
-        checkpoint();
-        throw Interrupted(
-            fmt::format("interrupted at {:.2f} s of shaking; the same command continues from there",
-                        s.state.time));
-      }
-      if (seconds_since(last_checkpoint) > kCheckpointSeconds) checkpoint();
-    }
-    s.state.time = target;
-    fill(frame, s, nodes, elements);
+ private:
+  void record() {
+    fill(frame, s, frame.displacement.size(), frame.stress.size());
     history.append(frame);
     ++run.output;
     run.since = kModuliInterval;
     run.largest_displacement = largest_displacement(frame, base);
-    facts.stopped_by_rule = rule.ends && rule.ends(frame);
-    facts.stopped =
-        config.stop_displacement && run.largest_displacement >= *config.stop_displacement;
-    progress.report(target / end, fmt::format("{:.2f} s, step {:.3g} s", target, s.dt));
+    stopped_by_rule = rule.ends && rule.ends(frame);
+    stopped = config.stop_displacement && run.largest_displacement >= *config.stop_displacement;
   }
-  history.finish();
-  remove_checkpoint(paths.checkpoint);
-  history.remove_parts();
-  facts.seconds = seconds_before + seconds_since(start);
+};
+
+void summarise(const Solver& s, const RunState& run, FemFacts& facts) {
   facts.end_time = s.state.time;
   facts.steps = s.state.step;
   facts.largest_displacement = run.largest_displacement;
@@ -259,6 +247,54 @@ FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const F
   facts.iterations = run.implicit.iterations;
   facts.most_iterations = run.implicit.most_iterations;
   facts.cut_steps = run.implicit.cut;
+}
+
+}  // namespace
+
+FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const FemConfig& config,
+                 const FemPaths& paths, int threads, const Progress& progress,
+                 const StopRule& rule) {
+  check(motion);
+  omp_set_num_threads(std::max(1, threads));
+  const double end = config.end.value_or(motion.duration());
+  const std::size_t nodes = section.mesh.num_nodes(), elements = section.mesh.num_elements();
+  check_output(config, end, nodes, elements);
+  FemFacts facts;
+  Solver s = make_section_at_rest(section, config, progress, facts);
+  std::vector<std::string> notes = section.notes;
+  notes.insert(notes.end(), facts.notes.begin(), facts.notes.end());
+  FemFrame rest;
+  fill(rest, s, nodes, elements);
+  Stepper step = make_stepper(s, config, motion, end, std::max(1, threads), progress);
+  start_motion(s);
+  s.dt = 1e-12;
+  RunState run{.since = kModuliInterval, .smallest_step = end};
+  const std::string origin = fingerprint(section, motion, config, rule.settings);
+  if (find_checkpoint(paths.checkpoint)) {
+    read_checkpoint(paths.checkpoint, origin, s, run);
+    check_progress(paths.checkpoint, s, run, end, config.output_interval);
+  }
+  Shaking shaking{
+      .s = s,
+      .run = run,
+      .config = config,
+      .end = end,
+      .take_step = std::move(step),
+      .rule = rule,
+      .checkpoint = paths.checkpoint,
+      .origin = origin,
+      .base = nodes_of(find_set(section, "base")),
+      .frame = rest,
+      .history = ResumableHistoryWriter(
+          paths.history, section.mesh,
+          {"flowslide fem.run",
+           "mean of xx and yy for PM4Sand, elastic plane strain for other laws", notes},
+          rest, static_cast<std::size_t>(run.output - 1))};
+  shaking.show_states_before();
+  facts.seconds = shaking.seconds_before + run_to_end(shaking, paths.checkpoint, progress);
+  facts.stopped = shaking.stopped;
+  facts.stopped_by_rule = shaking.stopped_by_rule;
+  summarise(s, run, facts);
   return facts;
 }
 

@@ -35,36 +35,6 @@ void visit_arrays(Frame& frame, F&& f) {
     frame.strength);
 }
 
-struct Column {
-  const char* name;
-  const char* unit;
-  double MpmSample::*value;
-};
-constexpr std::array<Column, 22> kColumns{
-    {{"time", "s", &MpmSample::time},
-     {"runout", "m", &MpmSample::runout},
-     {"front", "m", &MpmSample::front},
-     {"kinetic", "J", &MpmSample::kinetic},
-     {"gravity_work", "J", &MpmSample::gravity_work},
-     {"strain_energy", "J", &MpmSample::strain_energy},
-     {"plastic_work", "J", &MpmSample::plastic_work},
-     {"friction_work", "J", &MpmSample::friction_work},
-     {"damping_work", "J", &MpmSample::damping_work},
-     {"energy_error", "-", &MpmSample::energy_error},
-     {"momentum_error", "-", &MpmSample::momentum_error},
-     {"mass_error", "-", &MpmSample::mass_error},
-     {"max_speed", "m/s", &MpmSample::max_speed},
-     {"dt", "s", &MpmSample::dt},
-     {"active_particles", "-", &MpmSample::active_particles},
-     {"points_left", "-", &MpmSample::points_left},
-     {"mass_left", "kg", &MpmSample::mass_left},
-     {"kinetic_left", "J", &MpmSample::kinetic_left},
-     {"strain_energy_left", "J", &MpmSample::strain_energy_left},
-     {"momentum_left_x", "N s", &MpmSample::momentum_left_x},
-     {"momentum_left_y", "N s", &MpmSample::momentum_left_y},
-     {"load_work", "J", &MpmSample::load_work}}};
-static_assert(sizeof(MpmSample) == kColumns.size() * sizeof(double), "a column is missing");
-
 /// Doubles of one frame: time, 3 + 3 + 6 + 1 + 1 + 1 per particle.
 std::size_t frame_doubles(std::size_t particles) { return 1 + 15 * particles; }
 
@@ -165,7 +135,7 @@ void MpmHistoryWriter::append(const MpmFrame& frame) {
 }
 
 void MpmHistoryWriter::append(const MpmSample& sample) {
-  for (const Column& c : kColumns)
+  for (const SampleColumn& c : kSampleColumns)
     if (!std::isfinite(sample.*c.value))
       throw NumericsError(
           fmt::format("time series at t = {} s: {} is {} (the run has become "
@@ -194,7 +164,7 @@ void MpmHistoryWriter::finish() {
   out.write("frames/time", times, {.unit = "s", .convention = "since transfer"});
   std::vector<MpmSample> samples(impl_->samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) impl_->samples.read(i, &samples[i]);
-  for (const Column& c : kColumns) {
+  for (const SampleColumn& c : kSampleColumns) {
     std::vector<double> column;
     for (const MpmSample& s : samples) column.push_back(s.*c.value);
     out.write(std::string("samples/") + c.name, column, {.unit = c.unit});
@@ -219,7 +189,7 @@ MpmHistory::MpmHistory(const std::filesystem::path& path)
   impl_->initial = read_particles(in);
   impl_->times = in.read<double>("frames/time");
   impl_->samples.resize(in.rows("samples/time"));
-  for (const Column& c : kColumns) {
+  for (const SampleColumn& c : kSampleColumns) {
     const auto column = in.read<double>(std::string("samples/") + c.name, impl_->samples.size());
     for (std::size_t i = 0; i < column.size(); ++i) impl_->samples[i].*c.value = column[i];
   }

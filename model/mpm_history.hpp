@@ -50,6 +50,38 @@ struct MpmSample {
   double load_work = 0.0;           ///< work of tractions since the start [J]
 };
 
+struct SampleColumn {
+  const char* name;
+  const char* unit;  ///< of the whole width in three dimensions, else per metre of it
+  double MpmSample::*value;
+};
+
+/// The one list of them: what is stored, and what tables show.
+inline constexpr std::array<SampleColumn, 22> kSampleColumns{
+    {{"time", "s", &MpmSample::time},
+     {"runout", "m", &MpmSample::runout},
+     {"front", "m", &MpmSample::front},
+     {"kinetic", "J", &MpmSample::kinetic},
+     {"gravity_work", "J", &MpmSample::gravity_work},
+     {"strain_energy", "J", &MpmSample::strain_energy},
+     {"plastic_work", "J", &MpmSample::plastic_work},
+     {"friction_work", "J", &MpmSample::friction_work},
+     {"damping_work", "J", &MpmSample::damping_work},
+     {"energy_error", "-", &MpmSample::energy_error},
+     {"momentum_error", "-", &MpmSample::momentum_error},
+     {"mass_error", "-", &MpmSample::mass_error},
+     {"max_speed", "m/s", &MpmSample::max_speed},
+     {"dt", "s", &MpmSample::dt},
+     {"active_particles", "-", &MpmSample::active_particles},
+     {"points_left", "-", &MpmSample::points_left},
+     {"mass_left", "kg", &MpmSample::mass_left},
+     {"kinetic_left", "J", &MpmSample::kinetic_left},
+     {"strain_energy_left", "J", &MpmSample::strain_energy_left},
+     {"momentum_left_x", "N s", &MpmSample::momentum_left_x},
+     {"momentum_left_y", "N s", &MpmSample::momentum_left_y},
+     {"load_work", "J", &MpmSample::load_work}}};
+static_assert(sizeof(MpmSample) == kSampleColumns.size() * sizeof(double), "a column is missing");
+
 /// A MpmHistory of a run that may be killed and continued. While it is written, `path`.partial is a
 /// folder with frames and rows in files that only grow. Throws FileError, and NumericsError for
 /// numbers that are not finite.

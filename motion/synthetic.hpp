@@ -44,8 +44,9 @@ struct MotionPreset {
   int seed = 1;
   double bandwidth = 0.6;
   double rise = 2.0;
-  double lead = 1.0;                               ///< [s]
-  std::optional<double> strong_begin, strong_end;  ///< [s]
+  double lead = 1.0;                                  ///< [s]
+  std::optional<double> strong_begin = std::nullopt;  ///< [s]
+  std::optional<double> strong_end = std::nullopt;    ///< [s]
   double strong_ratio = 3.0;
 };
 

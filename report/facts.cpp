@@ -1,5 +1,6 @@
 #include "report/facts.hpp"
 
+#include "model/outline.hpp"
 #include "report/runout.hpp"
 
 #include <algorithm>
@@ -98,7 +99,8 @@ void add_movements(ReportFacts& f, const ParticleSet& p, const FinalState& end,
              region.outline.size());
     std::vector<std::size_t> points;
     for (std::size_t i = 0; i < p.size(); ++i)
-      if (inside(region.outline, end.undeformed[i][0], end.undeformed[i][1])) points.push_back(i);
+      if (inside_outline(region.outline, {end.undeformed[i][0], end.undeformed[i][1]}))
+        points.push_back(i);
     f.regions.push_back(movement(name, p, end, points, config.moved));
   }
 }
@@ -129,16 +131,6 @@ void add_rest(ReportFacts& f, const std::vector<MpmSample>& samples, const Repor
 }
 
 }  // namespace
-
-bool inside(const std::vector<std::vector<double>>& outline, double x, double y) {
-  bool in = false;
-  for (std::size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
-    const auto& a = outline[i];
-    const auto& b = outline[j];
-    if ((a[1] > y) != (b[1] > y) && x < (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]) + a[0]) in = !in;
-  }
-  return in;
-}
 
 std::vector<double> front_speed(const std::vector<MpmSample>& samples) {
   std::vector<double> speed(samples.size(), 0.0);

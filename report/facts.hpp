@@ -80,10 +80,6 @@ void add_warnings(ReportFacts& facts, const ParticleSet& initial, const FinalSta
 /// mass_error, ... A number that is unset becomes null.
 std::string to_json(const ReportFacts& facts);
 
-/// True if the point lies inside the polygon (even-odd rule); points on an edge may fall either
-/// way.
-bool inside(const std::vector<std::vector<double>>& outline, double x, double y);
-
 /// Speed of the front between consecutive samples [m/s], one per sample, 0 for the first.
 std::vector<double> front_speed(const std::vector<MpmSample>& samples);
 

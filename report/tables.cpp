@@ -3,33 +3,19 @@
 #include "core/check.hpp"
 #include "report/facts.hpp"
 
-#include <array>
 #include <cctype>
 #include <utility>
 
 namespace flowslide {
 namespace {
 
-struct SampleColumn {
-  std::string_view name;
-  double MpmSample::*value;
-};
-
-constexpr std::array kAfterSpeed{SampleColumn{"max_speed_m_s", &MpmSample::max_speed},
-                                 SampleColumn{"kinetic_J_per_m", &MpmSample::kinetic},
-                                 SampleColumn{"gravity_work_J_per_m", &MpmSample::gravity_work},
-                                 SampleColumn{"strain_energy_J_per_m", &MpmSample::strain_energy},
-                                 SampleColumn{"plastic_work_J_per_m", &MpmSample::plastic_work},
-                                 SampleColumn{"friction_work_J_per_m", &MpmSample::friction_work},
-                                 SampleColumn{"damping_work_J_per_m", &MpmSample::damping_work},
-                                 SampleColumn{"energy_error", &MpmSample::energy_error},
-                                 SampleColumn{"momentum_error", &MpmSample::momentum_error},
-                                 SampleColumn{"mass_error", &MpmSample::mass_error},
-                                 SampleColumn{"dt_s", &MpmSample::dt},
-                                 SampleColumn{"active_particles", &MpmSample::active_particles},
-                                 SampleColumn{"points_left", &MpmSample::points_left},
-                                 SampleColumn{"mass_left_kg_per_m", &MpmSample::mass_left},
-                                 SampleColumn{"kinetic_left_J_per_m", &MpmSample::kinetic_left}};
+/// "kinetic", "J" -> "kinetic_J_per_m"
+std::string column_with_unit(const SampleColumn& c) {
+  const std::string unit = c.unit;
+  if (unit == "-") return c.name;
+  const bool of_slice = unit == "J" || unit == "kg" || unit == "N s";
+  return fmt::format("{}_{}{}", c.name, column_name(unit), of_slice ? "_per_m" : "");
+}
 
 }  // namespace
 
@@ -40,14 +26,20 @@ std::string column_name(std::string_view name) {
 }
 
 std::string runout_csv(const std::vector<MpmSample>& samples) {
-  std::string out = "time_s,runout_m,front_m,front_speed_m_s";
-  for (const auto& column : kAfterSpeed) out += fmt::format(",{}", column.name);
+  // The speed of the front stands beside the front.
+  const auto ends_place = [](const SampleColumn& c) { return c.value == &MpmSample::front; };
+  std::string out;
+  for (const SampleColumn& c : kSampleColumns) {
+    out += (out.empty() ? "" : ",") + column_with_unit(c);
+    if (ends_place(c)) out += ",front_speed_m_s";
+  }
   out += '\n';
   const std::vector<double> speed = front_speed(samples);
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const MpmSample& s = samples[i];
-    out += fmt::format("{},{},{},{}", s.time, s.runout, s.front, speed[i]);
-    for (const auto& column : kAfterSpeed) out += fmt::format(",{}", s.*column.value);
+    for (const SampleColumn& c : kSampleColumns) {
+      out += fmt::format("{}{}", &c == kSampleColumns.data() ? "" : ",", samples[i].*c.value);
+      if (ends_place(c)) out += fmt::format(",{}", speed[i]);
+    }
     out += '\n';
   }
   return out;

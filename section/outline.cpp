@@ -25,17 +25,6 @@ double outline_area(std::span<const Vec2> outline) {
   return 0.5 * twice;
 }
 
-bool inside_outline(std::span<const Vec2> outline, Vec2 p) {
-  bool inside = false;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Vec2& a = outline[i];
-    const Vec2& b = outline[(i + 1) % outline.size()];
-    if ((a[1] > p[1]) == (b[1] > p[1])) continue;
-    if (p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])) inside = !inside;
-  }
-  return inside;
-}
-
 std::optional<Vec2> crossing(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   const double c_side = cross(a, b, c), d_side = cross(a, b, d);
   const double a_side = cross(c, d, a), b_side = cross(c, d, b);

@@ -1,5 +1,5 @@
 #pragma once
-#include "model/mesh.hpp"
+#include "model/outline.hpp"
 
 #include <optional>
 #include <span>
@@ -9,9 +9,6 @@ namespace flowslide {
 
 /// Signed, positive if counter-clockwise [m2].
 double outline_area(std::span<const Vec2> outline);
-
-/// Whether the point lies inside a closed outline; on the outline either answer is possible.
-bool inside_outline(std::span<const Vec2> outline, Vec2 point);
 
 /// Where the interiors of the segments ab and cd cross, if they do so at an angle.
 std::optional<Vec2> crossing(Vec2 a, Vec2 b, Vec2 c, Vec2 d);

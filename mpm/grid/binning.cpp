@@ -92,9 +92,23 @@ void link_tiles(Grid<Dim>& grid, Tiling<Dim>& tiling) {
       tiling.reach[next[tiling.tiles[i].around[n]]++] = {static_cast<std::int32_t>(i), n};
 }
 
+namespace {
+
+/// A point so far that no number is left for its block.
 template <int Dim>
-void bin_points(Points<Dim>& p, Grid<Dim>& grid, Tiling<Dim>& tiling, double basis_shift,
-                BinningScratch& scratch) {
+[[noreturn]] void refuse_escape(const Points<Dim>& p, std::size_t q, double x) {
+  throw NumericsError(
+      fmt::format("particle {} (counted from 0 in order of id) has left for {:.3g} m (farther than "
+                  "the grid can number) check its stress, its velocity and the strength of its "
+                  "material",
+                  p.index[q], x));
+}
+
+/// Key of each point's block, its cell within it, and the keys there are; returns the number of
+/// materials.
+template <int Dim>
+std::int32_t find_blocks(const Points<Dim>& p, const Grid<Dim>& grid, double basis_shift,
+                         BinningScratch& scratch) {
   constexpr int B = kBlockWidth<Dim>;
   const std::size_t n = p.size();
   scratch.key.resize(n);
@@ -107,13 +121,7 @@ void bin_points(Points<Dim>& p, Grid<Dim>& grid, Tiling<Dim>& tiling, double bas
     std::int64_t cell = 0;
     for (int d = Dim - 1; d >= 0; --d) {
       const double base = std::floor((p.x[d][i] - grid.origin[d]) * inverse - basis_shift);
-      if (!(std::abs(base) < kFarthest * B)) {
-        throw NumericsError(
-            fmt::format("particle {} (counted from 0 in order of id) has left for {:.3g} m "
-                        "(farther than the grid can "
-                        "number) check its stress, its velocity and the strength of its material",
-                        p.index[i], p.x[d][i]));
-      }
+      if (!(std::abs(base) < kFarthest * B)) refuse_escape(p, i, p.x[d][i]);
       block[d] = static_cast<std::int32_t>(std::floor(base / B));
       cell = cell * B + (static_cast<std::int32_t>(base) - block[d] * B);
     }
@@ -125,15 +133,26 @@ void bin_points(Points<Dim>& p, Grid<Dim>& grid, Tiling<Dim>& tiling, double bas
   std::sort(scratch.blocks.begin(), scratch.blocks.end());
   scratch.blocks.erase(std::unique(scratch.blocks.begin(), scratch.blocks.end()),
                        scratch.blocks.end());
+  return materials;
+}
+
+/// Order of the points by block, material and cell.
+template <int Dim>
+void find_order(const Points<Dim>& p, std::int32_t materials, BinningScratch& scratch) {
+  constexpr int B = kBlockWidth<Dim>;
   std::int64_t tile = 0;
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < p.size(); ++i) {
     if (i == 0 || scratch.key[i] != scratch.key[i - 1])
       tile = std::lower_bound(scratch.blocks.begin(), scratch.blocks.end(), scratch.key[i]) -
              scratch.blocks.begin();
     scratch.place[i] += power<Dim>(B) * (tile * materials + p.material[i]);
   }
   sort_by_place(scratch, power<Dim>(B) * materials * std::int64_t(scratch.blocks.size()));
+}
 
+/// Brings all arrays into that order.
+template <int Dim>
+void permute_points(Points<Dim>& p, BinningScratch& scratch) {
   std::vector<StaggeredArray<double>*> reals;
   std::vector<std::vector<std::int32_t>*> integers;
   visit_arrays(p, [&](auto& array) {
@@ -152,17 +171,22 @@ void bin_points(Points<Dim>& p, Grid<Dim>& grid, Tiling<Dim>& tiling, double bas
     else
       permute(*integers[k - reals.size()], scratch.order, copy.integer);
   }
+}
 
+/// Tiles and their runs of one material, from the points in order.
+template <int Dim>
+void list_tiles(const Points<Dim>& p, const BinningScratch& scratch, Tiling<Dim>& tiling) {
   tiling.tiles.clear();
   tiling.runs.clear();
   tiling.run_first.clear();
+  const std::size_t n = p.size();
   for (std::size_t i = 0; i < n; ++i) {
     const auto at = static_cast<std::int32_t>(i);
-    const bool new_tile =
-        i == 0 || scratch.key[scratch.order[i]] != scratch.key[scratch.order[i - 1]];
+    const std::int64_t key = scratch.key[scratch.order[i]];
+    const bool new_tile = i == 0 || key != scratch.key[scratch.order[i - 1]];
     if (new_tile) {
       if (!tiling.tiles.empty()) tiling.tiles.back().last = at;
-      tiling.tiles.push_back({unpack<Dim>(scratch.key[scratch.order[i]]), at, at, {}});
+      tiling.tiles.push_back({unpack<Dim>(key), at, at, {}});
       tiling.run_first.push_back(static_cast<std::int32_t>(tiling.runs.size()));
     }
     if (new_tile || p.material[i] != p.material[i - 1]) {
@@ -175,6 +199,17 @@ void bin_points(Points<Dim>& p, Grid<Dim>& grid, Tiling<Dim>& tiling, double bas
     tiling.runs.back().last = static_cast<std::int32_t>(n);
   }
   tiling.run_first.push_back(static_cast<std::int32_t>(tiling.runs.size()));
+}
+
+}  // namespace
+
+template <int Dim>
+void bin_points(Points<Dim>& p, Grid<Dim>& grid, Tiling<Dim>& tiling, double basis_shift,
+                BinningScratch& scratch) {
+  const std::int32_t materials = find_blocks(p, grid, basis_shift, scratch);
+  find_order(p, materials, scratch);
+  permute_points(p, scratch);
+  list_tiles(p, scratch, tiling);
   link_tiles(grid, tiling);
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/bspline.hpp"
 #include "core/pack.hpp"
 #include "mpm/kernels/scheme.hpp"
 
@@ -72,12 +73,7 @@ struct QuadraticBSpline {
   static constexpr double affine_bound = 8.0;
   template <class T>
   static void evaluate(T d, T* w, T* g) noexcept {
-    w[0] = 0.5 * (1.5 - d) * (1.5 - d);
-    w[1] = 0.75 - (d - 1.0) * (d - 1.0);
-    w[2] = 0.5 * (d - 0.5) * (d - 0.5);
-    g[0] = d - 1.5;
-    g[1] = -2.0 * (d - 1.0);
-    g[2] = d - 0.5;
+    quadratic_bspline(d, w, g);
   }
 };
 

@@ -21,4 +21,23 @@ enum class Transfer { apic, tpic, aflip, flip, pic, fmpm };
 /// musl: after the momentum balance, from the points' new velocities mapped to the grid again.
 enum class Update { symplectic, usf, musl };
 
+/// Whose changes of volume are averaged over cells (F-bar): those of the materials that would lock,
+/// or of none.
+enum class VolumeAverage { automatic, off };
+
+/// What a user can set about the steps.
+struct StepSettings {
+  BasisKind basis = BasisKind::quadratic;
+  Transfer transfer = Transfer::apic;
+  Update update = Update::symplectic;
+  double relaxation = 0.3;   ///< of aflip: time constant [s]
+  double flip_share = 0.99;  ///< of flip; 0 is pic
+  int fmpm_order = 2;        ///< of fmpm: terms of its series; 1 is pic
+  VolumeAverage volume_average = VolumeAverage::automatic;
+  double courant = 0.9;          ///< share of the stable step of docs/theory/time-step.md
+  double velocity_limit = 0.2;   ///< cells the fastest point may cross in a step
+  double strain_limit = 0.05;    ///< largest |L| dt aimed at
+  double damping = 0.0;          ///< local, non-viscous (Cundall) [-]
+};
+
 }  // namespace flowslide::mpm

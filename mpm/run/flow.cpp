@@ -1,21 +1,17 @@
 #include "mpm/run/flow.hpp"
 
-#include "model/checkpoint_file.hpp"
+#include "model/long_run.hpp"
 #include "mpm/solver/balance.hpp"
 #include "mpm/solver/checkpoint.hpp"
 #include "mpm/run/extrude.hpp"
 #include "mpm/run/load.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <numeric>
 
 namespace flowslide {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-constexpr double kReportSeconds = 0.2;  ///< wall time between progress reports
 /// A step that shrank this much means that the state has gone wrong, not that the flow is fast; so
 /// do many steps in a row that shrank by less.
 constexpr double kDtCollapse = 1e-5, kDtShort = 1e-2;
@@ -25,10 +21,6 @@ constexpr double kEnergyNoise = 0.01;  ///< cells that the soil may sink before 
 constexpr double kMostSteps = 1e8, kMostBytes = 1e12;
 constexpr double kFrameBytesPerPoint = 15 * sizeof(double);
 constexpr double kUpdatesPerSecond = 5e6;  ///< of a thread, for predictions of cost
-
-double seconds_since(Clock::time_point t) {
-  return std::chrono::duration<double>(Clock::now() - t).count();
-}
 
 /// The history keeps particles in order of id; the solver's `index` refers to that order.
 template <int Dim>
@@ -104,6 +96,92 @@ void check_cost(const mpm::Simulation<Dim>& s, const std::vector<MaterialSpec>& 
       materials[fastest].name, std::sqrt(wave2), config.cell, kMostSteps));
 }
 
+/// What the run remembers of its start.
+template <int Dim>
+void note_start(const mpm::Simulation<Dim>& s, const FlowConfig& config, mpm::RunState& run) {
+  const mpm::PointSums<Dim> start = mpm::sum_points(s);
+  run.mass_start = start.mass;
+  run.kinetic_start = start.kinetic;
+  run.potential_start = start.potential;
+  run.recoverable_start = start.recoverable;
+  // The balance of the first steps is wrong by as much as they do.
+  const double noise = kEnergyNoise * start.mass * config.gravity * config.cell;
+  run.energy.begin(start.kinetic, start.recoverable, noise);
+  std::copy(start.momentum.begin(), start.momentum.end(), run.momentum_start.begin());
+  run.first_dt = mpm::stable_step(s);
+}
+
+template <int Dim>
+mpm::Reference<Dim> reference_of(const mpm::RunState& run, double toe) {
+  mpm::Reference<Dim> r{
+      {run.mass_start, run.kinetic_start, run.potential_start, run.recoverable_start, {}, true, -1},
+      toe};
+  std::copy_n(run.momentum_start.begin(), Dim, r.start.momentum.begin());
+  return r;
+}
+
+/// A runout as a LongRun.
+template <int Dim>
+struct Runout {
+  mpm::Simulation<Dim>& s;
+  mpm::StepScratch<Dim>& scratch;
+  mpm::RunState& run;
+  const FlowConfig& config;
+  std::filesystem::path checkpoint;
+  mpm::Reference<Dim> reference;
+  std::vector<bool> counts;  ///< per material: its points count for the front
+  bool elastic;              ///< all materials are
+  MpmHistoryWriter history;
+  MpmFrame frame{};
+  std::vector<double> front_scratch{};
+  MpmSample last{.time = s.time};
+  bool over = false, rests = false;
+
+  [[nodiscard]] bool ended() const { return over; }
+  bool step() {
+    mpm::advance(s, scratch);
+    check_step(s, run);
+    run.updates += std::ssize(s.points.mass) - s.sleep.count;
+    over = s.time >= config.end || s.points.size() == 0;
+    if (s.time >= run.next_sample || over) sample();
+    const bool due = s.time >= run.next_frame || over;
+    if (due) store();
+    return due;
+  }
+  void save(double) {
+    history.flush();
+    mpm::write_checkpoint(checkpoint, s, run);
+  }
+  void store() {
+    mpm::store_frame(s, frame);
+    history.append(frame);
+    ++run.frames;
+    pass_output(run.next_frame, s.time, config.frame_interval);
+  }
+  [[nodiscard]] double share() const { return s.time / config.end; }
+  [[nodiscard]] std::string text() const {
+    return fmt::format("t {:.1f} s, runout {:.1f} m, fastest {:.2f} m/s", s.time, last.runout,
+                       std::sqrt(s.last.max_speed2));
+  }
+  [[nodiscard]] std::string place() const { return fmt::format("t = {:.2f} s", s.time); }
+
+ private:
+  void sample() {
+    if (mpm::any_beyond(s.outlet, s.points)) mpm::prepare(s, scratch, true);
+    last = mpm::sample(s, reference, counts, front_scratch);
+    run.energy.look(last, elastic);
+    history.append(last);
+    ++run.samples;
+    pass_output(run.next_sample, s.time, config.sample_interval);
+    hurry_frame(run, last, config);
+    run.peak_kinetic = std::max(run.peak_kinetic, last.kinetic);
+    run.recent.push_back({s.time, last.front});
+    std::erase_if(run.recent, [&](const auto& r) { return r[0] < s.time - config.rest.window; });
+    rests = at_rest(run, last, config.rest);
+    over = over || rests || s.points.size() == 0;
+  }
+};
+
 template <int Dim>
 FlowFacts run_in(const ParticleSet& particles, const FlowConfig& config, const FlowPaths& paths,
                  int threads, const Progress& progress) {
@@ -114,91 +192,32 @@ FlowFacts run_in(const ParticleSet& particles, const FlowConfig& config, const F
   const bool resume = find_checkpoint(paths.checkpoint);
   if (resume) mpm::read_checkpoint(paths.checkpoint, s, run);
   mpm::prepare(s, scratch, !resume);
-  if (resume) mpm::check_walls(paths.checkpoint, s);
-  if (!resume) {
-    const mpm::PointSums<Dim> start = mpm::sum_points(s);
-    run.mass_start = start.mass;
-    run.kinetic_start = start.kinetic;
-    run.potential_start = start.potential;
-    run.recoverable_start = start.recoverable;
-    // The balance of the first steps is wrong by as much as they do.
-    const double noise = kEnergyNoise * start.mass * config.gravity * config.cell;
-    run.energy.begin(start.kinetic, start.recoverable, noise);
-    std::copy(start.momentum.begin(), start.momentum.end(), run.momentum_start.begin());
-    run.first_dt = mpm::stable_step(s);
+  if (resume) {
+    mpm::check_walls(paths.checkpoint, s);
+  } else {
+    note_start(s, config, run);
     check_cost(s, particles.materials, config, run.first_dt, std::max(1, threads));
   }
-  mpm::Reference<Dim> reference{
-      {run.mass_start, run.kinetic_start, run.potential_start, run.recoverable_start, {}, true, -1},
-      config.toe};
-  std::copy_n(run.momentum_start.begin(), Dim, reference.start.momentum.begin());
+  const auto& materials = particles.materials;
   std::vector<bool> counts;
-  for (const MaterialSpec& m : particles.materials) counts.push_back(m.counts_for_runout);
-  const bool elastic =
-      std::all_of(particles.materials.begin(), particles.materials.end(),
-                  [](const MaterialSpec& m) { return m.law == LinearElastic::name; });
-
-  MpmHistoryWriter history(paths.history, particles, run.frames, run.samples);
-
-  FlowFacts facts;
-  MpmFrame frame;
-  std::vector<double> front_scratch;
-  const auto store = [&] {
-    mpm::store_frame(s, frame);
-    history.append(frame);
-    ++run.frames;
-    run.next_frame += config.frame_interval;
-  };
-  const auto checkpoint = [&] {
-    history.flush();
-    mpm::write_checkpoint(paths.checkpoint, s, run);
-  };
-  if (!resume) store();
-
-  const Clock::time_point start = Clock::now();
-  Clock::time_point last_checkpoint = start, last_report = start;
+  for (const MaterialSpec& m : materials) counts.push_back(m.counts_for_runout);
+  Runout<Dim> runout{
+      .s = s,
+      .scratch = scratch,
+      .run = run,
+      .config = config,
+      .checkpoint = paths.checkpoint,
+      .reference = reference_of<Dim>(run, config.toe),
+      .counts = counts,
+      .elastic = std::all_of(materials.begin(), materials.end(),
+                             [](const auto& m) { return m.law == LinearElastic::name; }),
+      .history = MpmHistoryWriter(paths.history, particles, run.frames, run.samples)};
+  if (!resume) runout.store();
   const std::int64_t first_updates = run.updates;
-  facts.last.time = s.time;
-  for (bool done = false; !done;) {
-    mpm::advance(s, scratch);
-    check_step(s, run);
-    run.updates += std::ssize(s.points.mass) - s.sleep.count;
-    done = s.time >= config.end || s.points.size() == 0;
-    if (s.time >= run.next_sample || done) {
-      if (mpm::any_beyond(s.outlet, s.points)) mpm::prepare(s, scratch, true);
-      facts.last = mpm::sample(s, reference, counts, front_scratch);
-      run.energy.look(facts.last, elastic);
-      history.append(facts.last);
-      ++run.samples;
-      while (run.next_sample <= s.time) run.next_sample += config.sample_interval;
-      hurry_frame(run, facts.last, config);
-      run.peak_kinetic = std::max(run.peak_kinetic, facts.last.kinetic);
-      run.recent.push_back({s.time, facts.last.front});
-      std::erase_if(run.recent, [&](const auto& r) { return r[0] < s.time - config.rest.window; });
-      facts.at_rest = at_rest(run, facts.last, config.rest);
-      done = done || facts.at_rest || s.points.size() == 0;
-    }
-    if (s.time >= run.next_frame || done) store();
-    if (seconds_since(last_report) > kReportSeconds || done) {
-      progress.report(done ? 1.0 : s.time / config.end,
-                      fmt::format("t {:.1f} s, runout {:.1f} m, fastest {:.2f} m/s", s.time,
-                                  facts.last.runout, std::sqrt(s.last.max_speed2)));
-      last_report = Clock::now();
-    }
-    if (!done && progress.should_stop()) {
-      checkpoint();
-      throw Interrupted(fmt::format(
-          "interrupted at t = {:.2f} s; the same command continues from there", s.time));
-    }
-    if (!done && seconds_since(last_checkpoint) > kCheckpointSeconds) {
-      checkpoint();
-      last_checkpoint = Clock::now();
-    }
-  }
-  facts.step_seconds = seconds_since(start);
-  history.finish();
-  remove_checkpoint(paths.checkpoint);
-  history.remove_parts();
+  FlowFacts facts;
+  facts.step_seconds = run_to_end(runout, paths.checkpoint, progress);
+  facts.last = runout.last;
+  facts.at_rest = runout.rests;
   facts.end_time = s.time;
   facts.steps = s.step;
   facts.point_updates = static_cast<double>(run.updates);

@@ -10,7 +10,7 @@
 /// Settings of a runout. docs/theory/mpm.md
 namespace flowslide {
 
-enum class VolumeAverage { automatic, off };
+using mpm::VolumeAverage;
 enum class Sides { smooth, rough, open };
 
 struct SofteningSettings {
@@ -63,7 +63,8 @@ struct TractionSettings {
   double begin = 0.0, ramp = 0.0;                                  ///< [s]
 };
 
-struct FlowConfig {
+/// Where and for how long the steps are taken, beside what is set about each of them.
+struct FlowConfig : mpm::StepSettings {
   double cell = kUnset;                 ///< [m]
   std::array<double, 2> grid_origin{};  ///< [m]
   double toe = kUnset;                  ///< x [m]
@@ -78,18 +79,7 @@ struct FlowConfig {
   /// Walls at two y [m] in three dimensions, as `extrude` sets them.
   std::optional<std::array<double, 2>> side_rollers;
   SofteningSettings softening;
-  mpm::BasisKind basis = mpm::BasisKind::quadratic;
-  mpm::Transfer transfer = mpm::Transfer::apic;
-  mpm::Update update = mpm::Update::symplectic;
-  double relaxation = 0.3;  ///< of aflip [s]
-  double flip_share = 0.99;
-  int fmpm_order = 2;
-  VolumeAverage volume_average = VolumeAverage::automatic;
   double gravity = 9.81;  ///< [m/s2]
-  double courant = 0.9;
-  double velocity_limit = 0.2;
-  double strain_limit = 0.05;
-  double damping = 0.0;
   std::optional<SleepSettings> sleep;
   RestSettings rest;
   double frame_interval = 5.0;    ///< [s]

@@ -2,6 +2,7 @@
 
 #include "core/elementary.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace flowslide::mpm {
@@ -73,49 +74,49 @@ double ground_level(const Simulation<Dim>& s, std::int64_t id, std::size_t q) {
   return s.ground.level(x[0][q]);
 }
 
-}  // namespace
-
 template <int Dim>
-Simulation<Dim> make_simulation(const ParticleSet& particles, const FlowConfig& config) {
-  check(particles);
-  check(config);
-  validate(particles.dim == Dim, "the particles have {} dimensions (this run has {})",
-           particles.dim, Dim);
-  validate(particles.size() > 0, "there are no particles to run");
-
-  Simulation<Dim> s;
-  s.grid.h = config.cell;
-  s.grid.origin.front() = config.grid_origin[0];
-  s.grid.origin.back() = config.grid_origin[1];
-  s.settings.basis = config.basis;
-  s.settings.transfer = config.transfer;
-  s.settings.update = config.update;
-  s.settings.flip_share = config.flip_share;
-  s.settings.fmpm_order = config.fmpm_order;
-  s.settings.gravity[Dim - 1] = -config.gravity;
-  s.settings.courant = config.courant;
-  s.settings.velocity_limit = config.velocity_limit;
-  s.settings.strain_limit = config.strain_limit;
-  s.settings.relaxation = config.relaxation;
-  s.settings.cundall = config.damping;
-  if (config.sleep) {
-    s.sleep.speed = config.sleep->speed;
-    s.sleep.after = config.sleep->after;
+Ground make_ground(const GroundSettings& settings) {
+  Ground ground;
+  for (const auto& point : settings.surface) {
+    ground.x.push_back(point[0]);
+    ground.height.push_back(point[1]);
   }
-  s.settings.average_volume = config.volume_average == VolumeAverage::automatic;
-  for (const auto& point : config.ground.surface) {
-    s.ground.x.push_back(point[0]);
-    s.ground.height.push_back(point[1]);
-  }
-  s.ground.friction = config.ground.friction;
-  if (config.ground.terrain) {
+  ground.friction = settings.friction;
+  if (settings.terrain) {
     validate(Dim == 3,
              "ground.terrain is a surface in three dimensions (this run has {}) give "
              "ground.surface",
              Dim);
-    const TerrainSettings& t = *config.ground.terrain;
-    s.ground.field = read_height_field(t.file.path, {t.origin, t.heading, t.level});
+    const TerrainSettings& t = *settings.terrain;
+    ground.field = read_height_field(t.file.path, {t.origin, t.heading, t.level});
   }
+  return ground;
+}
+
+Rollers make_rollers(const FlowConfig& config) {
+  Rollers r;
+  if (config.left_roller) r.left = *config.left_roller;
+  if (config.right_roller) r.right = *config.right_roller;
+  if (config.side_rollers) {
+    r.near = (*config.side_rollers)[0];
+    r.far = (*config.side_rollers)[1];
+    if (config.extrude && config.extrude->sides == Sides::rough)
+      r.side_friction = config.ground.friction;
+  }
+  return r;
+}
+
+/// What does not depend on the points: settings, grid, and what stands around the soil.
+template <int Dim>
+Simulation<Dim> make_scene(const FlowConfig& config) {
+  Simulation<Dim> s;
+  s.settings = config;
+  s.gravity[Dim - 1] = -config.gravity;
+  s.grid.h = config.cell;
+  s.grid.origin.front() = config.grid_origin[0];
+  s.grid.origin.back() = config.grid_origin[1];
+  s.ground = make_ground<Dim>(config.ground);
+  s.rollers = make_rollers(config);
   s.outlet.low.front() = config.outlet.left.value_or(s.outlet.low.front());
   s.outlet.high.front() = config.outlet.right.value_or(s.outlet.high.front());
   s.outlet.low.back() = config.outlet.bottom.value_or(s.outlet.low.back());
@@ -124,27 +125,17 @@ Simulation<Dim> make_simulation(const ParticleSet& particles, const FlowConfig& 
   absorbing.low.front() = config.absorbing.left.value_or(absorbing.low.front());
   absorbing.high.front() = config.absorbing.right.value_or(absorbing.high.front());
   absorbing.low.back() = config.absorbing.bottom.value_or(absorbing.low.back());
-  if (config.left_roller) s.rollers.left = *config.left_roller;
-  if (config.right_roller) s.rollers.right = *config.right_roller;
-  if (config.side_rollers) {
-    s.rollers.near = (*config.side_rollers)[0];
-    s.rollers.far = (*config.side_rollers)[1];
-    if (config.extrude && config.extrude->sides == Sides::rough)
-      s.rollers.side_friction = config.ground.friction;
+  if (config.sleep) {
+    s.sleep.speed = config.sleep->speed;
+    s.sleep.after = config.sleep->after;
   }
+  return s;
+}
 
-  std::vector<StateSource> sources;
-  for (const MaterialSpec& spec : particles.materials) {
-    s.materials.push_back(solver_material(spec, config));
-    sources.push_back(state_source(spec, particles));
-  }
-
-  s.largest_density.assign(s.materials.size(), 0.0);
-  const std::size_t n = particles.size();
-  Points<Dim>& p = s.points;
-  visit_arrays(p, [&](auto& array) { array.assign(n, {}); });
-  double density = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
+template <int Dim>
+void load_points(const ParticleSet& particles, Points<Dim>& p) {
+  visit_arrays(p, [&](auto& array) { array.assign(particles.size(), {}); });
+  for (std::size_t i = 0; i < particles.size(); ++i) {
     for (int d = 0; d < Dim; ++d) {
       p.x[d][i] = particles.position[i][d];
       p.v[d][i] = particles.velocity[i][d];
@@ -154,9 +145,15 @@ Simulation<Dim> make_simulation(const ParticleSet& particles, const FlowConfig& 
     p.volume[i] = particles.volume[i];
     p.material[i] = particles.material[i];
     p.index[i] = static_cast<std::int32_t>(i);
-    density = std::max(density, p.mass[i] / p.volume[i]);
-    double& largest = s.largest_density[p.material[i]];
-    largest = std::max(largest, p.mass[i] / p.volume[i]);
+  }
+}
+
+template <int Dim>
+void load_states(const ParticleSet& particles, Points<Dim>& p) {
+  std::vector<StateSource> sources;
+  for (const MaterialSpec& spec : particles.materials)
+    sources.push_back(state_source(spec, particles));
+  for (std::size_t i = 0; i < p.size(); ++i) {
     const StateSource& source = sources[p.material[i]];
     for (std::size_t k = 0; k < source.names.size(); ++k) {
       const double value = source.arrays[k] ? (*source.arrays[k])[i] : source.defaults[k];
@@ -166,22 +163,41 @@ Simulation<Dim> make_simulation(const ParticleSet& particles, const FlowConfig& 
                "material or per particle",
                particles.id[i], particles.materials[p.material[i]].name, source.names[k]);
     }
-    const double depth = ground_level(s, particles.id[i], i) - p.x[Dim - 1][i];
-    validate(!(depth > 0.5 * config.cell),
+  }
+}
+
+/// Points that the first step would throw out, or lose.
+template <int Dim>
+void check_places(const Simulation<Dim>& s, const std::vector<std::int64_t>& id) {
+  const Points<Dim>& p = s.points;
+  const Absorbing<Dim>& absorbing = s.contact.absorbing;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const double depth = ground_level(s, id[i], i) - p.x[Dim - 1][i];
+    validate(!(depth > 0.5 * s.grid.h),
              "particle {} at ({:.2f}, {:.2f}) lies {:.2f} m inside the ground (it would be thrown "
-             "out) lower "
-             "ground.surface or raise the transfer box",
-             particles.id[i], p.x[0][i], p.x[Dim - 1][i], depth);
+             "out) lower ground.surface or raise the transfer box",
+             id[i], p.x[0][i], p.x[Dim - 1][i], depth);
     for (int d = 0; d < Dim; ++d)
       validate(p.x[d][i] >= absorbing.low[d] && p.x[d][i] <= absorbing.high[d],
                "particle {} at ({:.2f}, {:.2f}) lies beyond an absorbing plane (nothing would hold "
                "it there) move the plane or the transfer box",
-               particles.id[i], p.x[0][i], p.x[Dim - 1][i]);
+               id[i], p.x[0][i], p.x[Dim - 1][i]);
     for (int d = 0; d < Dim; ++d)
       validate(p.x[d][i] >= s.outlet.low[d] && p.x[d][i] <= s.outlet.high[d],
                "particle {} at ({:.2f}, {:.2f}) lies beyond the outlet (it would leave before the "
                "run begins) move the outlet or the transfer box",
-               particles.id[i], p.x[0][i], p.x[Dim - 1][i]);
+               id[i], p.x[0][i], p.x[Dim - 1][i]);
+  }
+}
+
+/// What the points are at the start: the densest, the fastest, and the fastest wave.
+template <int Dim>
+void measure_points(Simulation<Dim>& s) {
+  const Points<Dim>& p = s.points;
+  s.largest_density.assign(s.materials.size(), 0.0);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    double& largest = s.largest_density[p.material[i]];
+    largest = std::max(largest, p.mass[i] / p.volume[i]);
     const double modulus =
         wave_modulus(s.materials[p.material[i]].elastic, s.averages(p.material[i]));
     s.last.max_wave2 = std::max(s.last.max_wave2, modulus * p.volume[i] / p.mass[i]);
@@ -189,12 +205,18 @@ Simulation<Dim> make_simulation(const ParticleSet& particles, const FlowConfig& 
     for (const auto& v : p.v) speed2 += v[i] * v[i];
     s.last.max_speed2 = std::max(s.last.max_speed2, speed2);
   }
+  const double density = *std::max_element(s.largest_density.begin(), s.largest_density.end());
+  s.full_mass = density * pow(s.grid.h, Dim);
+}
+
+template <int Dim>
+void add_tractions(const FlowConfig& config, Simulation<Dim>& s) {
   if constexpr (Dim == 2) {
     for (std::size_t i = 0; i < config.tractions.size(); ++i) {
       const TractionSettings& t = config.tractions[i];
       const std::size_t carriers =
           add_traction({t.from, t.to, t.pressure, t.shear, t.begin, t.ramp},
-                       kTractionDepth * config.cell, p, s.loads);
+                       kTractionDepth * config.cell, s.points, s.loads);
       validate(carriers > 0,
                "tractions: no particle lies within {} cells to the right of stretch {} (nothing "
                "carries it) put it on the surface of the soil, which lies on the right of the way "
@@ -204,7 +226,25 @@ Simulation<Dim> make_simulation(const ParticleSet& particles, const FlowConfig& 
   } else {
     validate(config.tractions.empty(), "tractions act in plane strain (this run has 3 dimensions)");
   }
-  s.full_mass = density * pow(config.cell, Dim);
+}
+
+}  // namespace
+
+template <int Dim>
+Simulation<Dim> make_simulation(const ParticleSet& particles, const FlowConfig& config) {
+  check(particles);
+  check(config);
+  validate(particles.dim == Dim, "the particles have {} dimensions (this run has {})",
+           particles.dim, Dim);
+  validate(particles.size() > 0, "there are no particles to run");
+  Simulation<Dim> s = make_scene<Dim>(config);
+  for (const MaterialSpec& spec : particles.materials)
+    s.materials.push_back(solver_material(spec, config));
+  load_points(particles, s.points);
+  load_states(particles, s.points);
+  check_places(s, particles.id);
+  measure_points(s);
+  add_tractions(config, s);
   return s;
 }
 

@@ -35,7 +35,7 @@ PointSums<Dim> sum_points(const Simulation<Dim>& s, const Points<Dim>& p) {
     const std::array<double, Dim> moment = affine_moments(s, p, q);
     for (int d = 0; d < Dim; ++d) {
       v2 += p.v[d][q] * p.v[d][q];
-      lift -= s.settings.gravity[d] * p.x[d][q];
+      lift -= s.gravity[d] * p.x[d][q];
       r.momentum[d] += p.mass[q] * p.v[d][q];
     }
     for (int i = 0; i < Dim * Dim; ++i) affine2 += h2 * moment[i % Dim] * p.c[i][q] * p.c[i][q];

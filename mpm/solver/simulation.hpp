@@ -14,21 +14,6 @@
 /// The state of a run and one time step.
 namespace flowslide::mpm {
 
-struct StepSettings {
-  BasisKind basis = BasisKind::quadratic;
-  Transfer transfer = Transfer::apic;
-  Update update = Update::symplectic;
-  double flip_share = 1.0;          ///< of flip; 0 is pic
-  int fmpm_order = 2;               ///< terms of fmpm's series; 1 is pic
-  std::array<double, 3> gravity{};  ///< [m/s2]
-  double courant = 0.9;             ///< share of the stable step of docs/theory/time-step.md
-  double velocity_limit = 0.2;      ///< cells the fastest point may cross in a step
-  double strain_limit = 0.05;       ///< largest |L| dt aimed at
-  double relaxation = 0.3;          ///< time constant of aflip [s]
-  double cundall = 0.0;             ///< local damping [-]
-  bool average_volume = true;       ///< F-bar
-};
-
 /// Sums since the start; with the points' own energies they close the balances.
 template <int Dim>
 struct Balance {
@@ -51,6 +36,7 @@ struct Simulation {
   Contact<Dim> contact;
   Sleep<Dim> sleep;
   StepSettings settings;
+  std::array<double, 3> gravity{};  ///< [m/s2]
   double full_mass = 0.0;  ///< mass of a full cell [kg], the scale of the mass floor
   /// Per material, of its points at the start [kg/m3]; 0: its points never count as debris.
   std::vector<double> largest_density;
@@ -64,7 +50,8 @@ struct Simulation {
   Balance<Dim> balance;
 
   [[nodiscard]] bool averages(std::int32_t material) const {
-    return settings.average_volume && materials[material].average_volume;
+    return settings.volume_average == VolumeAverage::automatic &&
+           materials[material].average_volume;
   }
 };
 

@@ -95,14 +95,14 @@ void gather_points(Simulation<Dim>& s, const Tile<Dim>& tile, double keep,
   }
 }
 
-/// One step as a sequence of phases, each called by every thread of a parallel region.
+/// The phases of a step, each called by every thread of a parallel region.
 template <int Dim, class Basis>
 struct Phases {
   Simulation<Dim>& s;
   StepScratch<Dim>& scratch;
   const double dt = s.dt;
   const Update update = s.settings.update;
-  const MomentumSettings momentum{dt, s.settings.gravity, s.settings.cundall, scratch.light};
+  const MomentumSettings momentum{dt, s.gravity, s.settings.damping, scratch.light};
   /// Share of its own velocity that a point keeps with aflip and flip.
   const double keep = s.settings.transfer == Transfer::flip ? s.settings.flip_share
                                                              : exp(-dt / s.settings.relaxation);
@@ -112,7 +112,7 @@ struct Phases {
   void strain(std::int32_t tile, TileScratch<Dim>& mine) {
     scratch.stress_work[tile] =
         update_stress<Dim>(s.points, s.tiling.tiles[tile], runs_of(s.tiling, tile), s.materials, dt,
-                           mine, s.settings.average_volume);
+                           mine, s.settings.volume_average == VolumeAverage::automatic);
   }
 
   /// Strains of usf and musl, from velocities that the points map to the grid.
@@ -128,8 +128,9 @@ struct Phases {
     });
   }
 
-  /// Points to grid, and the momentum balance there.
-  void to_grid(int thread) {
+  /// Mass, momentum and force of the points into the windows of their tiles, unless the last step
+  /// has done so.
+  void points_to_grid(int thread) {
     TileScratch<Dim>& mine = scratch.tile[thread];
     if (update == Update::usf) strain_from_points(thread);
     if (!scratch.scattered) {
@@ -137,11 +138,15 @@ struct Phases {
       take_turns(scratch.groups, thread, scatter);
       if (sleepers) take_turns(scratch.asleep, thread, scatter);
     }
-    const bool loaded = !s.loads.empty();
-    if (loaded) {
+    if (!s.loads.empty()) {
 #pragma omp single
       add_loads<Dim, Basis>(s, scratch);
     }
+  }
+
+  /// The windows' sums on the nodes, and the momentum balance there.
+  void balance_momentum(int thread) {
+    const bool loaded = !s.loads.empty();
     const auto blocks = static_cast<std::int32_t>(s.grid.blocks.size());
     const std::uint64_t* at_walls = s.contact.in_block.data();
     double most2 = 0.0;
@@ -156,12 +161,12 @@ struct Phases {
       scratch.gain2[b] = gain2;
       if (!(gain2 <= most2)) most2 = gain2;
     }
-    mine.gain2 = most2;
+    scratch.tile[thread].gain2 = most2;
 #pragma omp barrier
   }
 
   /// One thread sees to the walls while the others begin with the tiles that do not touch them.
-  void at_walls(int thread) {
+  void hold_soil(int thread) {
 #pragma omp single nowait
     scratch.contact_work = hold_at_walls(s.grid, s.contact, momentum, s.full_mass);
     if (s.settings.transfer == Transfer::fmpm) {
@@ -171,7 +176,7 @@ struct Phases {
   }
 
   /// Grid to points; with the symplectic update stress and what the next step begins with, too.
-  void to_points(int thread) {
+  void grid_to_points(int thread) {
     TileScratch<Dim>& mine = scratch.tile[thread];
     // With musl positions stay until the new velocities have been mapped back.
     auto& moved = update == Update::musl ? scratch.moved : s.points.x;
@@ -205,7 +210,7 @@ struct Phases {
     {
       const int thread = omp_get_thread_num();
       TileScratch<Dim>& mine = scratch.tile[thread];
-      at_walls(thread);
+      hold_soil(thread);
 #pragma omp barrier
       take_turns(scratch.groups, thread, [&](std::int32_t i) {
         const Tile<Dim>& tile = s.tiling.tiles[i];
@@ -230,10 +235,11 @@ double step(Simulation<Dim>& s, StepScratch<Dim>& scratch) {
 #pragma omp parallel num_threads(threads)
   {
     const int thread = omp_get_thread_num();
-    phases.to_grid(thread);
+    phases.points_to_grid(thread);
+    phases.balance_momentum(thread);
     if (gains_little(s, scratch)) {
-      phases.at_walls(thread);
-      phases.to_points(thread);
+      phases.hold_soil(thread);
+      phases.grid_to_points(thread);
     } else if (thread == 0) {
       doubtful = true;
     }
@@ -247,7 +253,7 @@ double step(Simulation<Dim>& s, StepScratch<Dim>& scratch) {
       return share;
     }
 #pragma omp parallel num_threads(threads)
-    phases.to_points(omp_get_thread_num());
+    phases.grid_to_points(omp_get_thread_num());
   }
   scratch.scattered = s.settings.update == Update::symplectic;
   if (s.settings.update == Update::musl) s.points.x.swap(scratch.moved);

@@ -60,7 +60,8 @@ double push(Contact<Dim>& c, std::int32_t p, Hold hold,
     wanted[d] = held[d] - u[d] * inverse;
     normal += wanted[d] * wall.normal[d];
   }
-  const bool both_ways = wall.holds || hold == Hold::fast;
+  const bool roller = wall.kind == WallKind::roller;
+  const bool both_ways = roller || hold == Hold::fast;
   const double allowed = both_ways ? normal : std::max(0.0, normal);
   double tangential = 0.0;
   for (int d = 0; d < Dim; ++d) {
@@ -68,7 +69,7 @@ double push(Contact<Dim>& c, std::int32_t p, Hold hold,
     tangential += wanted[d] * wanted[d];
   }
   tangential = std::sqrt(tangential);
-  const double most = wall.holds || hold != Hold::contact ? 0.0 : wall.friction * allowed;
+  const double most = roller || hold != Hold::contact ? 0.0 : wall.friction * allowed;
   const double keep = tangential > most ? most / tangential : 1.0;
   std::array<double, Dim> change;
   double size = 0.0;
@@ -93,6 +94,20 @@ void take_nodes(const StaggeredArray<Node>& nodes, Contact<Dim>& c, double floor
   }
 }
 
+/// Does a wall point that soil touches act in a solution? `pushed` is the normal impulse of the last
+/// step.
+bool acts(WallKind kind, double pushed, Hold hold, Ends ends) noexcept {
+  switch (kind) {
+    case WallKind::ground:
+      return hold != Hold::fast || pushed > 0.0;
+    case WallKind::roller:
+      return true;
+    case WallKind::absorbing:
+      return ends != Ends::idle;
+  }
+  return false;
+}
+
 /// Wall points that soil touches and that act; the impulse of others is zero.
 template <int Dim>
 void find_active(Contact<Dim>& c, Hold hold, Ends ends,
@@ -108,9 +123,7 @@ void find_active(Contact<Dim>& c, Hold hold, Ends ends,
     c.mobility[p] = mobility;
     double pushed = 0.0;
     for (int d = 0; d < Dim; ++d) pushed += c.impulse[p][d] * wall.normal[d];
-    const bool acts =
-        wall.dashpot < 0 ? hold != Hold::fast || wall.holds || pushed > 0.0 : ends != Ends::idle;
-    if (touched > 0.0 && acts) {
+    if (touched > 0.0 && acts(wall.kind, pushed, hold, ends)) {
       c.active.push_back(static_cast<std::int32_t>(p));
       for (std::int32_t e = wall.first; e < wall.last; ++e) ++c.uses[c.node[e]];
     } else {
@@ -129,8 +142,8 @@ void solve(const StaggeredArray<Node>& nodes, Contact<Dim>& c, double full_mass,
            std::vector<typename Contact<Dim>::Vector>& impulse, Ends ends, double dt) noexcept {
   using L = NodeLayout<Dim>;
   const auto turn = [&](std::int32_t p) {
-    return c.walls[p].dashpot < 0 ? push(c, p, hold, impulse[p])
-                                  : drain(c, p, ends, dt, impulse[p]);
+    return c.walls[p].kind == WallKind::absorbing ? drain(c, p, ends, dt, impulse[p])
+                                                  : push(c, p, hold, impulse[p]);
   };
   // changes, or velocities
   take_nodes(nodes, c, kMassFloor * full_mass, ends == Ends::stop ? L::force : L::momentum);

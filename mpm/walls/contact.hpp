@@ -11,13 +11,19 @@
 /// over the nodes of the line as a pressure on the surface would be. docs/theory/contact.md
 namespace flowslide::mpm {
 
+enum class WallKind {
+  ground,     ///< pushes, with Coulomb friction
+  roller,     ///< holds both ways, without friction
+  absorbing,  ///< a dashpot of an absorbing plane
+};
+
 /// A point of a wall. It acts on the contact nodes [first, last) of Contact::node and ::weight.
 template <int Dim>
 struct WallPoint {
   std::array<double, Dim> normal{};  ///< unit, into the soil
-  double friction = 0.0;             ///< Coulomb coefficient [-]
-  bool holds = false;                ///< holds both ways, without friction (roller)
-  std::int32_t dashpot = -1;         ///< of an absorbing plane, into Absorbing::dashpots
+  WallKind kind = WallKind::ground;
+  double friction = 0.0;      ///< of `ground`: Coulomb coefficient [-]
+  std::int32_t dashpot = -1;  ///< of `absorbing`: into Absorbing::dashpots
   std::int32_t first = 0, last = 0;
   std::int32_t touching = 0;  ///< entries [first, touching) lie near enough to count as touched
 };

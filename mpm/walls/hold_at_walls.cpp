@@ -12,7 +12,7 @@ namespace {
 template <int Dim, class F>
 void for_each_dashpot(Contact<Dim>& c, F&& f) {
   for (std::size_t p = 0; p < c.walls.size(); ++p)
-    if (c.walls[p].dashpot >= 0) f(c.walls[p], c.impulse[p]);
+    if (c.walls[p].kind == WallKind::absorbing) f(c.walls[p], c.impulse[p]);
 }
 
 /// Velocities before the step where the dashpots are; and, in the first step, the forces with which

@@ -97,7 +97,7 @@ TEST_CASE("lines fit the terminal", "[cli]") {
   const std::string run_again =
       "run w.yaml --out out --set stages.shake.with.sigma_zz.rule=elastic --set "
       "stages.shake.with.sigma_zz.nu=0.3";
-  for (const unsigned short columns : {40, 60, 80, 120}) {
+  for (const std::size_t columns : {40U, 60U, 80U, 120U}) {
     CAPTURE(columns);
     const std::string text = on_terminal(scratch, run_again + " --dry-run", columns) +
                              on_terminal(scratch, "run w.yaml --out out", columns);

@@ -30,8 +30,11 @@ inline Outcome call(const Scratch& scratch, const std::string& arguments, const 
 
 /// What a terminal of so many columns shows of a command.
 inline std::string on_terminal(const Scratch& scratch, const std::string& arguments,
-                        unsigned short columns) {
-  const winsize size{.ws_row = 24, .ws_col = columns, .ws_xpixel = 0, .ws_ypixel = 0};
+                        std::size_t columns) {
+  const winsize size{.ws_row = 24,
+                     .ws_col = static_cast<unsigned short>(columns),
+                     .ws_xpixel = 0,
+                     .ws_ypixel = 0};
   int master = -1;
   const pid_t child = ::forkpty(&master, nullptr, nullptr, &size);
   REQUIRE(child >= 0);

@@ -65,7 +65,7 @@ TEST_CASE("Anderson acceleration solves a linear problem in as many steps as it 
   Anderson accelerated(Eigen::Vector3d{1.0, 10.0, 0.1}, 3);
   Eigen::VectorXd x = Eigen::Vector3d::Zero(), plain = x;
   for (int i = 0; i < 4; ++i) {
-    x = accelerated.next(x, b - A * x);
+    accelerated.advance(x, b - A * x);
     plain += b - A * plain;
   }
   CHECK((x - solution).norm() < 1e-12);

@@ -1,13 +1,13 @@
 #include "importers/mesh_text.hpp"
 
 #include "core/check.hpp"
-#include "files.hpp"
+#include "tests/support/data_folder.hpp"
 
 #include <catch2/catch.hpp>
 
 using namespace flowslide;
 using Catch::Contains;
-using flowslide::test::TempFolder;
+using flowslide::test::DataFolder;
 
 namespace {
 
@@ -15,7 +15,7 @@ const std::string kNodes = "1 0 0\n2 1 0\n3 2 0\n4 0 1\n5 1 1\n6 2 1\n";
 const std::string kElements = "10 1 2 5 4 168\n20 2 3 6 5 170\n";
 
 struct Files {
-  TempFolder folder;
+  DataFolder folder;
   MeshTextConfig config;
   Files(std::string_view nodes, std::string_view elements) {
     config.nodes.path = folder.write("nodeinfo.dat", nodes);

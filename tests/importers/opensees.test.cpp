@@ -163,7 +163,7 @@ TEST_CASE("files without a time column need the interval", "[importers]") {
                     Contains("There is a time column: set `columns.time: true`"));
   for (const char* name : {"Gstress.out", "Gstrain.out", "GporePressure.out", "displacement.out",
                            "velocity.out", "porePressure.out", "stress.out", "strain.out"}) {
-    std::string text = test::read_bytes(model.folder.path(name));
+    std::string text = read_text_file(model.folder.path(name));
     std::string without;
     for (std::size_t at = 0; at < text.size();) {
       const std::size_t end = text.find('\n', at);
@@ -433,7 +433,7 @@ sigma_zz: {rule: elastic, nu: 0.3}
 }
 
 TEST_CASE("the dam that fails is read as OpenSees wrote it", "[importers]") {
-  const test::TempFolder folder;
+  const test::DataFolder folder;
   const std::filesystem::path source = test::fixture("opensees/dam-rio270");
   OpenSeesConfig config;
   config.mesh.nodes.path = source / "nodeinfo.dat";

@@ -1,7 +1,7 @@
 #include "importers/recorder_text.hpp"
 
 #include "core/check.hpp"
-#include "files.hpp"
+#include "tests/support/data_folder.hpp"
 #include "tests/support/paths.hpp"
 
 #include <cmath>
@@ -14,7 +14,7 @@
 
 using namespace flowslide;
 using Catch::Contains;
-using flowslide::test::TempFolder;
+using flowslide::test::DataFolder;
 
 namespace {
 
@@ -55,7 +55,7 @@ const std::string kPlain =
 }  // namespace
 
 TEST_CASE("a text recorder is read to the bit", "[importers]") {
-  const TempFolder folder;
+  const DataFolder folder;
   const Rows rows = read_all(folder.write("a.out", kPlain));
   REQUIRE(rows.size() == 3);
   CHECK(rows[0] == std::vector<double>{0.01, -1.17133e-06, 0.0, 0.0});
@@ -64,7 +64,7 @@ TEST_CASE("a text recorder is read to the bit", "[importers]") {
 }
 
 TEST_CASE("every spelling of the same table reads to the same bits", "[importers]") {
-  const TempFolder folder;
+  const DataFolder folder;
   const Rows plain = read_all(folder.write("plain.out", kPlain));
   const std::string csv = replaced(kPlain, " ", ",");
   const std::vector<std::pair<std::string, std::string>> spellings = {
@@ -89,7 +89,7 @@ TEST_CASE("every spelling of the same table reads to the same bits", "[importers
 }
 
 TEST_CASE("line ends may fall on the border of a block", "[importers]") {
-  const TempFolder folder;
+  const DataFolder folder;
   // 2^18 bytes are read at a time; the row ends are moved across that border.
   for (std::size_t pad = (1 << 18) - 4; pad <= (1 << 18) + 2; ++pad) {
     CAPTURE(pad);
@@ -99,7 +99,7 @@ TEST_CASE("line ends may fall on the border of a block", "[importers]") {
 }
 
 TEST_CASE("numbers of all programs are understood", "[importers]") {
-  const TempFolder folder;
+  const DataFolder folder;
   const double inf = std::numeric_limits<double>::infinity();
   const Rows rows = read_all(
       folder.write("a.out", "+1.0 .5 5. 1e-005 4e-310 1e-400 inf -inf 1.#INF -1.#INF000\n"));
@@ -110,7 +110,7 @@ TEST_CASE("numbers of all programs are understood", "[importers]") {
 }
 
 TEST_CASE("a last line without newline is dropped and reported", "[importers]") {
-  const TempFolder folder;
+  const DataFolder folder;
   std::vector<std::string> notes;
   // The last number of the full-length row has lost a digit: nothing else would show it.
   const Rows rows = read_all(folder.write("displacement.out", "1 2\n3 4\n5 6.88511e-0"), &notes);
@@ -128,7 +128,7 @@ TEST_CASE("the tail of a killed run is read up to the torn row", "[importers]") 
 }
 
 TEST_CASE("a header is skipped only if it holds no number", "[importers]") {
-  const TempFolder folder;
+  const DataFolder folder;
   std::vector<std::string> notes;
   CHECK(read_all(folder.write("a.csv", "\"time (s)\",ux,uy\n1,2,3\n"), &notes) == Rows{{1, 2, 3}});
   CHECK(notes == std::vector<std::string>{"a.csv:1: header line skipped"});
@@ -141,7 +141,7 @@ TEST_CASE("a header is skipped only if it holds no number", "[importers]") {
 }
 
 TEST_CASE("what is no row of numbers is explained with its place", "[importers]") {
-  const TempFolder folder;
+  const DataFolder folder;
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"1 2 3\n4 5\n", "a.out:2: 2 columns, but the first row has 3"},
       {"1 2\n3 4 5\n", "a.out:2: 3 columns, but the first row has 2"},
@@ -166,7 +166,7 @@ TEST_CASE("what is no row of numbers is explained with its place", "[importers]"
 }
 
 TEST_CASE("what is no text is explained", "[importers]") {
-  const TempFolder folder;
+  const DataFolder folder;
   using namespace std::string_literals;
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"\xFF\xFE"
@@ -187,7 +187,7 @@ TEST_CASE("what is no text is explained", "[importers]") {
     CAPTURE(message);
     CHECK_THROWS_WITH(read_all(folder.write("a.out", bytes)), Contains(message));
   }
-  const std::string gz = test::read_bytes(folder.write_gzip("whole.gz", kPlain));
+  const std::string gz = read_text_file(folder.write_gzip("whole.gz", kPlain));
   CHECK_THROWS_WITH(read_all(folder.write("cut.gz", gz.substr(0, gz.size() - 6))),
                     Contains("gzip data end too early"));
   std::string damaged = gz;
@@ -197,7 +197,7 @@ TEST_CASE("what is no text is explained", "[importers]") {
 }
 
 TEST_CASE("files that cannot be opened are told apart", "[importers]") {
-  const TempFolder folder;
+  const DataFolder folder;
   CHECK_THROWS_AS(RecorderReader(folder.path("none.out")), FileError);
   CHECK_THROWS_WITH(RecorderReader(folder.path("none.out")), Contains("no such file"));
   CHECK_THROWS_WITH(RecorderReader("~/none.out"), Contains("'~' is not expanded"));
@@ -208,14 +208,14 @@ TEST_CASE("files that cannot be opened are told apart", "[importers]") {
 }
 
 TEST_CASE("a compressed line without an end does not fill the memory", "[importers]") {
-  const TempFolder folder;
+  const DataFolder folder;
   const std::string line(65u << 20u, '1');
   CHECK_THROWS_WITH(read_all(folder.write_gzip("line.gz", "1 2\n" + line)),
                     Contains("line.gz:2") && Contains("more than 64 MiB"));
 }
 
 TEST_CASE("a scan explains what is empty", "[importers]") {
-  const TempFolder folder;
+  const DataFolder folder;
   const auto problem = [&](std::string_view text) {
     const RecorderScan scan = scan_recorder(folder.write("a.out", text));
     REQUIRE(scan.problems.size() == 1);
@@ -228,7 +228,7 @@ TEST_CASE("a scan explains what is empty", "[importers]") {
 }
 
 TEST_CASE("a scan lists the first values that are not finite", "[importers]") {
-  const TempFolder folder;
+  const DataFolder folder;
   const auto label = [](std::size_t c) { return c == 2 ? std::string("node 7 x") : std::string(); };
   const RecorderScan scan =
       scan_recorder(folder.write("a.out", "1 5 6\n2 nan 7\n3 8 -inf\n"), label);
@@ -248,7 +248,7 @@ TEST_CASE("a scan lists the first values that are not finite", "[importers]") {
 }
 
 TEST_CASE("a bad row does not hide the rows after it from a scan", "[importers]") {
-  const TempFolder folder;
+  const DataFolder folder;
   const RecorderScan scan = scan_recorder(folder.write("a.out", "1 2\n3\n5 6\n7 x\n9 10\n"));
   CHECK(scan.rows == 5);
   CHECK(scan.good_rows == 1);
@@ -256,7 +256,7 @@ TEST_CASE("a bad row does not hide the rows after it from a scan", "[importers]"
 }
 
 TEST_CASE("a row of a million columns is read", "[importers]") {
-  const TempFolder folder;
+  const DataFolder folder;
   constexpr std::size_t columns = 1'000'000;
   std::string text;
   for (std::size_t c = 0; c < columns; ++c) text += c % 2 == 0 ? "1 " : "0.25 ";
@@ -268,7 +268,7 @@ TEST_CASE("a row of a million columns is read", "[importers]") {
 }
 
 TEST_CASE("a file cut at any byte gives its complete rows or an error", "[importers][fuzz]") {
-  const TempFolder folder;
+  const DataFolder folder;
   const std::string text = "0.1 -0.0645595 1.3e-05\r\n0.2 nan 3\n0.3 -1.#IND 4 \n";
   for (std::size_t size = 0; size <= text.size(); ++size) {
     CAPTURE(size);
@@ -278,7 +278,7 @@ TEST_CASE("a file cut at any byte gives its complete rows or an error", "[import
         std::count(cut.begin(), cut.end(), '\n') + (size == text.find('\r') + 1 ? 1 : 0);
     CHECK(static_cast<std::ptrdiff_t>(read_all(folder.write("a.out", cut)).size()) == complete);
   }
-  const std::string gz = test::read_bytes(folder.write_gzip("whole.gz", text));
+  const std::string gz = read_text_file(folder.write_gzip("whole.gz", text));
   for (std::size_t size = 0; size < gz.size(); ++size) {
     CAPTURE(size);
     const RecorderScan scan = scan_recorder(folder.write("a.gz", gz.substr(0, size)));
@@ -287,7 +287,7 @@ TEST_CASE("a file cut at any byte gives its complete rows or an error", "[import
 }
 
 TEST_CASE("a file with any byte replaced never crashes", "[importers][fuzz]") {
-  const TempFolder folder;
+  const DataFolder folder;
   const std::string text = "0.1 -0.06 1.3e-05\n0.2 1,5 nan\n";
   for (std::size_t at = 0; at < text.size(); ++at) {
     for (const char byte : std::string("\0\1\n\r ,-#\"e\x7F\xFF", 12)) {
@@ -301,7 +301,7 @@ TEST_CASE("a file with any byte replaced never crashes", "[importers][fuzz]") {
 }
 
 TEST_CASE("a summary says what a recorder holds", "[importers]") {
-  const TempFolder folder;
+  const DataFolder folder;
   const RecorderSummary s =
       summarize_recorder(folder.write("a.out", "0.1 5 -7\n0.2 6 8\n0.5 1 2\n0.6 1"));
   CHECK(s.columns == 3);

@@ -1,5 +1,5 @@
 #pragma once
-#include "files.hpp"
+#include "tests/support/data_folder.hpp"
 #include "importers/opensees.hpp"
 
 #include <string>
@@ -11,7 +11,7 @@ namespace flowslide::test {
 /// Two square elements of 1 m side, saturated to the surface, in kPa; every value of a recorder is
 /// an own number, so that an exchange of columns shows.
 struct SmallModel {
-  TempFolder folder;
+  DataFolder folder;
   OpenSeesConfig config;
 
   static double pressure(int node, int row) { return (node <= 3 ? 9.81 : 0.0) + 0.01 * row; }

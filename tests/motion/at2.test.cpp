@@ -9,7 +9,7 @@
 
 using namespace flowslide;
 using Catch::Contains;
-using flowslide::test::MotionFolder;
+using flowslide::test::DataFolder;
 
 namespace {
 
@@ -121,7 +121,7 @@ TEST_CASE("AT2 values in every layout", "[motion]") {
 }
 
 TEST_CASE("AT2 files on disk, plain and gzip", "[motion]") {
-  const MotionFolder folder;
+  const DataFolder folder;
   const std::string text = at2(kUnits, kCounts, kData);
   const Record plain = read_record(folder.write("a.AT2", text));
   check_values(plain, kGravity);

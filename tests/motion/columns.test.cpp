@@ -12,7 +12,7 @@
 
 using namespace flowslide;
 using Catch::Contains;
-using flowslide::test::MotionFolder;
+using flowslide::test::DataFolder;
 using flowslide::test::sampled;
 
 namespace {
@@ -88,7 +88,7 @@ TEST_CASE("columns that are no uniform motion are refused", "[motion]") {
 }
 
 TEST_CASE("a written motion reads back to the same numbers", "[motion]") {
-  const MotionFolder folder;
+  const DataFolder folder;
   const GroundMotion motion =
       sampled(0.005, 1.0, [](double t) { return std::exp(-t) * std::sin(40.0 * t) / 3.0; });
   write_motion(folder.path("m.csv"), motion);
@@ -105,7 +105,7 @@ TEST_CASE("a motion on a full disk is whole or not there", "[motion]") {
 }
 
 TEST_CASE("a record that is no file is refused at once", "[motion]") {
-  const MotionFolder folder;
+  const DataFolder folder;
   REQUIRE(::mkfifo(folder.path("pipe").c_str(), 0600) == 0);
   CHECK_THROWS_AS(read_record(folder.path("pipe"), {}), FileError);
   CHECK_THROWS_AS(read_record("/dev/zero", {}), FileError);

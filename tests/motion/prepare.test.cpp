@@ -10,18 +10,18 @@
 using namespace flowslide;
 using Catch::Contains;
 using flowslide::test::harmonic;
-using flowslide::test::MotionFolder;
+using flowslide::test::DataFolder;
 
 namespace {
 
-MotionConfig read_config(const MotionFolder& folder, const std::string& text) {
+MotionConfig read_config(const DataFolder& folder, const std::string& text) {
   return read_settings<MotionConfig>(load_yaml(folder.write("motion.yaml", text)), "");
 }
 
 }  // namespace
 
 TEST_CASE("a record is processed in the declared order", "[motion]") {
-  const MotionFolder folder;
+  const DataFolder folder;
   write_motion(folder.path("m.csv"), harmonic(1.0, 2.0, 0.01, 10.0));
   const MotionConfig config = read_config(folder,
                                           "record: m.csv\nunit: m/s2\n"
@@ -41,7 +41,7 @@ TEST_CASE("a record is processed in the declared order", "[motion]") {
 }
 
 TEST_CASE("a record without processing stays what it is", "[motion]") {
-  const MotionFolder folder;
+  const DataFolder folder;
   const GroundMotion sine = harmonic(1.0, 2.0, 0.01, 10.0);
   write_motion(folder.path("m.csv"), sine);
   const GroundMotion motion = prepare_motion(read_config(folder, "record: m.csv\nunit: m/s2\n"));
@@ -49,7 +49,7 @@ TEST_CASE("a record without processing stays what it is", "[motion]") {
 }
 
 TEST_CASE("presets and synthetic motions come from settings", "[motion]") {
-  const MotionFolder folder;
+  const DataFolder folder;
   const GroundMotion preset =
       prepare_motion(read_config(folder, "preset: loma-prieta-lick\npga: 0.2 g\n"));
   CHECK(preset.acceleration ==
@@ -61,7 +61,7 @@ TEST_CASE("presets and synthetic motions come from settings", "[motion]") {
 }
 
 TEST_CASE("settings of a motion that contradict are refused", "[motion]") {
-  const MotionFolder folder;
+  const DataFolder folder;
   const auto problem = [&](const std::string& text) {
     try {
       check(read_config(folder, text));

@@ -12,11 +12,11 @@
 
 using namespace flowslide;
 using Catch::Contains;
-using flowslide::test::MotionFolder;
+using flowslide::test::DataFolder;
 using flowslide::test::sampled;
 
 TEST_CASE("a record is measured, velocity and spectrum after scaling", "[motion]") {
-  const MotionFolder folder;
+  const DataFolder folder;
   const GroundMotion motion =
       sampled(0.01, 15.0, [](double t) { return 2.0 * std::exp(-0.3 * t) * std::sin(12.0 * t); });
   write_motion(folder.path("m.csv"), motion);

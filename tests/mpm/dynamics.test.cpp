@@ -131,7 +131,7 @@ TEST_CASE("A block on a slope sticks or slides as Coulomb says", "[mpm]") {
   config.ground.surface = {{0.0, 0.0}};
   config.ground.friction = mu;
   Run run(p, config);
-  run.s.settings.gravity = {g * std::sin(angle), -g * std::cos(angle), 0.0};
+  run.s.gravity = {g * std::sin(angle), -g * std::cos(angle), 0.0};
   run.run_to(0.5);
   const PointSums<2> sums = sum_points(run.s);
   const double speed = sums.momentum[0] / sums.mass;

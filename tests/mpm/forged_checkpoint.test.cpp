@@ -5,6 +5,7 @@
 #include "tests/support/limited_files.hpp"
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <random>
 
@@ -71,31 +72,40 @@ std::string refusal(const Scene& scene, const std::filesystem::path& path) {
   return "(none)";
 }
 
-}  // namespace
+/// A good checkpoint that tests change.
+struct Forgery {
+  Scene scene;
+  Scratch folder;
+  State good = state_of(scene);
 
-TEST_CASE("A checkpoint whose numbers cannot be those of a run is refused", "[mpm]") {
-  const Scene scene;
-  const Scratch folder;
-  const State good = state_of(scene);
-  REQUIRE(good.s.gone.size() > 0);
-  REQUIRE(good.s.tiling.tiles.size() > 2);
-  REQUIRE(!good.s.contact.absorbing.dashpots.empty());
-  REQUIRE(!good.s.sleep.asleep.empty());
-  const auto forged = [&](auto change) {
+  /// What is said of it after `change` of the simulation and the run's memory.
+  [[nodiscard]] std::string with(const std::function<void(Simulation<2>&, RunState&)>& change) const {
     State state = good;
     change(state.s, state.run);
     write_checkpoint(folder / "c", state.s, state.run);
     return refusal(scene, folder / "c");
-  };
-  REQUIRE(forged([](auto&, auto&) {}) == "(none)");  // control
-  const auto length = [](auto& array) { array.push_back(array.back()); };
-  CHECK_THAT(forged([&](auto& s, auto&) { length(s.points.mass); }), Contains("number of points"));
-  CHECK_THAT(forged([&](auto& s, auto&) { length(s.points.x[1]); }), Contains("length"));
-  CHECK_THAT(forged([&](auto& s, auto&) { s.points.sigma[3].clear(); }), Contains("length"));
-  CHECK_THAT(forged([&](auto& s, auto&) { length(s.gone.index); }), Contains("length"));
+  }
+};
 
+void lengthen(auto& array) { array.push_back(array.back()); }
+
+}  // namespace
+
+TEST_CASE("A checkpoint whose arrays have other lengths is refused", "[mpm]") {
+  const Forgery forgery;
+  REQUIRE(forgery.with([](auto&, auto&) {}) == "(none)");  // control
+  CHECK_THAT(forgery.with([](auto& s, auto&) { lengthen(s.points.mass); }),
+             Contains("number of points"));
+  CHECK_THAT(forgery.with([](auto& s, auto&) { lengthen(s.points.x[1]); }), Contains("length"));
+  CHECK_THAT(forgery.with([](auto& s, auto&) { s.points.sigma[3].clear(); }), Contains("length"));
+  CHECK_THAT(forgery.with([](auto& s, auto&) { lengthen(s.gone.index); }), Contains("length"));
+}
+
+TEST_CASE("A checkpoint whose times and counts cannot be those of a run is refused", "[mpm]") {
+  const Forgery forgery;
+  REQUIRE(forgery.good.s.gone.size() > 0);
   const auto times = [&](auto change) {
-    CHECK_THAT(forged([&](auto& s, auto& run) { change(s, run); }), Contains("times, steps"));
+    CHECK_THAT(forgery.with(change), Contains("times, steps"));
   };
   times([](auto& s, auto&) { s.dt = kNan; });
   times([](auto& s, auto&) { s.dt = 0.0; });
@@ -106,9 +116,13 @@ TEST_CASE("A checkpoint whose numbers cannot be those of a run is refused", "[mp
   times([](auto&, auto& run) { run.next_sample = -1e300; });  // the loop over it would not end
   times([](auto&, auto& run) { run.first_dt = kNan; });
   times([](auto&, auto& run) { run.frames = 0; });
+}
 
+TEST_CASE("A checkpoint whose points or tiles cannot be those of a run is refused", "[mpm]") {
+  const Forgery forgery;
+  REQUIRE(forgery.good.s.tiling.tiles.size() > 2);
   const auto point = [&](auto change) {
-    CHECK_THAT(forged([&](auto& s, auto&) { change(s.points); }), Contains("point"));
+    CHECK_THAT(forgery.with([&](auto& s, auto&) { change(s.points); }), Contains("point"));
   };
   point([](auto& p) { p.index[0] = p.index[1]; });
   point([](auto& p) { p.index[0] = -1; });
@@ -121,7 +135,7 @@ TEST_CASE("A checkpoint whose numbers cannot be those of a run is refused", "[mp
   point([](auto& p) { p.x[0][0] += 100.0; });
 
   const auto tile = [&](auto change) {
-    CHECK_THAT(forged([&](auto& s, auto&) { change(s.tiling); }), Contains("tile"));
+    CHECK_THAT(forgery.with([&](auto& s, auto&) { change(s.tiling); }), Contains("tile"));
   };
   tile([](auto& t) { t.tiles[0].last += 1; });
   tile([](auto& t) { t.tiles[1].first = -4; });
@@ -133,18 +147,23 @@ TEST_CASE("A checkpoint whose numbers cannot be those of a run is refused", "[mp
   tile([](auto& t) { t.run_first.pop_back(); });
   tile([](auto& t) { t.runs[0].last = 0; });
   tile([](auto& t) { t.runs[0].material = 9; });
+}
 
-  CHECK_THAT(forged([](auto& s, auto&) { s.sleep.asleep.pop_back(); }), Contains("sleeping"));
-  CHECK_THAT(forged([](auto& s, auto&) { s.sleep.place[1].clear(); }), Contains("sleeping"));
+TEST_CASE("A checkpoint with another sleep, or other planes and walls, is refused", "[mpm]") {
+  const Forgery forgery;
+  REQUIRE(!forgery.good.s.contact.absorbing.dashpots.empty());
+  REQUIRE(!forgery.good.s.sleep.asleep.empty());
+  CHECK_THAT(forgery.with([](auto& s, auto&) { s.sleep.asleep.pop_back(); }), Contains("sleeping"));
+  CHECK_THAT(forgery.with([](auto& s, auto&) { s.sleep.place[1].clear(); }), Contains("sleeping"));
   const auto plane = [&](auto change) {
-    CHECK_THAT(forged([&](auto& s, auto&) { change(s.contact.absorbing.dashpots[0]); }),
+    CHECK_THAT(forgery.with([&](auto& s, auto&) { change(s.contact.absorbing.dashpots[0]); }),
                Contains("absorbing"));
   };
   plane([](auto& d) { d.plane = -1; });
   plane([](auto& d) { d.plane = 3; });
   plane([](auto& d) { d.line[1] = 1 << 30; });
   plane([](auto& d) { d.area = kNan; });
-  CHECK_THAT(forged([](auto& s, auto&) { s.contact.impulse.pop_back(); }), Contains("walls"));
+  CHECK_THAT(forgery.with([](auto& s, auto&) { s.contact.impulse.pop_back(); }), Contains("walls"));
 }
 
 TEST_CASE("Checkpoints with random changes under a right checksum are read or refused", "[mpm]") {

@@ -153,7 +153,11 @@ TEST_CASE("Checkpoints keep what has left", "[mpm]") {
   Run run(column(), collapse());
   run.run_to(1.2);
   REQUIRE(run.s.gone.size() > 0);
-  RunState state{.frames = 1, .next_frame = 1.5, .next_sample = 1.3, .first_dt = run.s.dt};
+  RunState state;
+  state.frames = 1;
+  state.next_frame = 1.5;
+  state.next_sample = 1.3;
+  state.first_dt = run.s.dt;
   write_checkpoint(folder / "c", run.s, state);
   Simulation<2> again = make_simulation(column(), collapse());
   read_checkpoint(folder / "c", again, state);

@@ -1,5 +1,6 @@
 #include "report/facts.hpp"
 
+#include "model/outline.hpp"
 #include "tests/report/dam_case.hpp"
 #include "tests/support/scratch.hpp"
 
@@ -138,10 +139,10 @@ TEST_CASE("JSON has units in its keys and null for what is unset") {
 
 TEST_CASE("Points inside a concave outline") {
   const std::vector<std::vector<double>> outline{{0, 0}, {4, 0}, {4, 4}, {2, 1}, {0, 4}};
-  CHECK(inside(outline, 0.5, 1.0));
-  CHECK(inside(outline, 3.5, 1.0));
-  CHECK_FALSE(inside(outline, 2.0, 2.0));
-  CHECK_FALSE(inside(outline, 5.0, 1.0));
+  CHECK(inside_outline(outline, {0.5, 1.0}));
+  CHECK(inside_outline(outline, {3.5, 1.0}));
+  CHECK_FALSE(inside_outline(outline, {2.0, 2.0}));
+  CHECK_FALSE(inside_outline(outline, {5.0, 1.0}));
 }
 
 TEST_CASE("Points that left by the outlet are told of") {

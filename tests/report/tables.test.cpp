@@ -18,13 +18,15 @@ TEST_CASE("runout.csv has a named column per quantity and the speed of the front
   samples[0].front = 75.0;
   samples[1].kinetic = 1.0 / 3.0;
   samples[1].energy_error = kUnset;
+  samples[1].load_work = -2.0;
   CHECK(runout_csv(samples) ==
-        "time_s,runout_m,front_m,front_speed_m_s,max_speed_m_s,kinetic_J_per_m,"
-        "gravity_work_J_per_m,strain_energy_J_per_m,plastic_work_J_per_m,friction_work_J_per_m,"
-        "damping_work_J_per_m,energy_error,momentum_error,mass_error,dt_s,active_particles,"
-        "points_left,mass_left_kg_per_m,kinetic_left_J_per_m\n"
-        "0,0,75,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n"
-        "0.5,1.25,76.25,2.5,0,0.3333333333333333,0,0,0,0,0,nan,0,0,0,0,0,0,0\n");
+        "time_s,runout_m,front_m,front_speed_m_s,kinetic_J_per_m,gravity_work_J_per_m,"
+        "strain_energy_J_per_m,plastic_work_J_per_m,friction_work_J_per_m,damping_work_J_per_m,"
+        "energy_error,momentum_error,mass_error,max_speed_m_s,dt_s,active_particles,points_left,"
+        "mass_left_kg_per_m,kinetic_left_J_per_m,strain_energy_left_J_per_m,"
+        "momentum_left_x_N_s_per_m,momentum_left_y_N_s_per_m,load_work_J_per_m\n"
+        "0,0,75,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n"
+        "0.5,1.25,76.25,2.5,0.3333333333333333,0,0,0,0,0,nan,0,0,0,0,0,0,0,0,0,0,0,-2\n");
 }
 
 TEST_CASE("zone.csv has a depth and its maximum per window") {

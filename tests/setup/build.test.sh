@@ -95,6 +95,13 @@ expect "sudo installs" test "$code" -eq 0
 expect "as root" called "sudo env DEBIAN_FRONTEND=noninteractive LC_ALL=C apt-get install"
 
 double cmake 'case "$*" in --build*)
+  echo "[1/20] Building a.cpp.o"; echo "a.cpp:1:2: warning: odd"; echo " 1 | int a"; echo "[2/20] b" ;; esac'
+build
+expect "a warning of the compiler is shown" says "a.cpp:1:2: warning: odd"
+expect "with its place" says " 1 | int a"
+expect "and does not fail the build" test "$code" -eq 0
+
+double cmake 'case "$*" in --build*)
   for i in $(seq 100); do echo "line $i"; done; echo "a.cpp:1: error: no"; exit 1 ;; esac'
 build
 expect "a failed build ends with 1" test "$code" -eq 1

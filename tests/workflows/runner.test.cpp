@@ -190,7 +190,7 @@ TEST_CASE("a result of another build is used, and the build is named", "[workflo
   write_record(folder, record);
   bench.run();
   CHECK(bench.ran.empty());
-  CHECK(bench.why["two"] == "up to date (made by 0.0.1 abc1234)");
+  CHECK(bench.why["two"] == "up to date (made by 0.0.1 abc1234; --redo two runs it again)");
   CHECK(bench.why["one"] == "up to date");
 }
 

@@ -54,88 +54,137 @@ History shake_explicitly() {
   return h;
 }
 
-/// Generalised trapezoidal rule: theta 1/2 is of second order and keeps energy, 1 is Euler's.
-History shake_implicitly(double dt, double theta) {
-  constexpr int kIterations = 200;
-  Solver s = column();
-  const Operators o = assemble(s);
-  const Eigen::Index n = s.model.num_dofs + 1, nodes = o.S.rows();
-  const Eigen::Map<const Vector> mass(s.layout.mass.data(), n), dashpot(s.dashpot.data(), n);
-  const Vector weight = Eigen::Map<const Vector>(s.layout.weight.data(), n) +
-                        Eigen::Map<const Vector>(s.model.load.data(), n);
-  Matrix damping = s.damping.stiffness * o.K;
-  damping.diagonal() += dashpot;
-  Matrix J(n + nodes, n + nodes);
-  J << theta * damping + theta * theta * dt * o.K, -theta * o.Q, theta * o.Q.transpose(),
-      o.S / dt + theta * o.H;
-  for (Eigen::Index u = 0; u < n; ++u) J(u, u) += mass[u] / dt;
-  std::vector<bool> held(n + nodes, false);
-  for (Eigen::Index u = 0; u < n; ++u) held[u] = u + 1 == n || s.prescribed[u];
-  for (Eigen::Index i = 0; i < nodes; ++i)
-    held[n + i] = s.water.equation[i] == s.water.num_equations;
-  for (Eigen::Index k = 0; k < n + nodes; ++k)
-    if (held[k]) {
-      J.row(k).setZero();
-      J(k, k) = 1.0;
-    }
-  const Eigen::PartialPivLU<Matrix> lu(J);
+/// The generalised trapezoidal rule for motion and water together: theta 1/2 is of second order and
+/// keeps energy, 1 is Euler's.
+class Trapezoidal {
+ public:
+  Trapezoidal(Solver& s, double dt, double theta)
+      : s_(s),
+        o_(assemble(s)),
+        dt_(dt),
+        theta_(theta),
+        n_(s.model.num_dofs + 1),
+        nodes_(o_.S.rows()),
+        mass_(s.layout.mass.data(), n_),
+        p_(s.state.pressure.data(), nodes_),
+        v_(Vector::Zero(n_)),
+        u_(Vector::Zero(n_)) {
+    weight_ = Eigen::Map<const Vector>(s.layout.weight.data(), n_) +
+              Eigen::Map<const Vector>(s.model.load.data(), n_);
+    damping_ = s.damping.stiffness * o_.K;
+    damping_.diagonal() += Eigen::Map<const Vector>(s.dashpot.data(), n_);
+    held_.assign(n_ + nodes_, false);
+    for (Eigen::Index u = 0; u < n_; ++u) held_[u] = u + 1 == n_ || s.prescribed[u];
+    for (Eigen::Index i = 0; i < nodes_; ++i)
+      held_[n_ + i] = s.water.equation[i] == s.water.num_equations;
+    lu_.compute(jacobian());
+    force_ = deform(s, u_).force;
+  }
 
-  Eigen::Map<Vector> p(s.state.pressure.data(), nodes);
-  Vector v = Vector::Zero(n), u = Vector::Zero(n);
-  Vector force = deform(s, u).force;
-  Energy energy;
+  /// One step to t + dt, where the base moves with `ground_end`.
+  void step(double t, double ground_end) {
+    constexpr int kIterations = 200;
+    v1_ = v_;
+    p1_ = p_;
+    for (Eigen::Index k = 0; k < n_; ++k)
+      if (s_.prescribed[k]) v1_[k] = ground_end;
+    for (int iteration = 0; !correct();)
+      if (++iteration >= kIterations)
+        throw NumericsError(fmt::format("implicit step at {:.4f} s does not converge", t));
+    add_work();
+    keep();
+  }
+
+  [[nodiscard]] const Vector& displacement() const { return u_; }
+  [[nodiscard]] Energy energy() const {
+    Energy e = energy_;
+    e.kinetic = 0.5 * v_.dot(mass_.cwiseProduct(v_));
+    return e;
+  }
+
+ private:
+  /// Of the residuals with the elastic stiffness.
+  [[nodiscard]] Matrix jacobian() const {
+    Matrix J(n_ + nodes_, n_ + nodes_);
+    J << theta_ * damping_ + theta_ * theta_ * dt_ * o_.K, -theta_ * o_.Q,
+        theta_ * o_.Q.transpose(), o_.S / dt_ + theta_ * o_.H;
+    for (Eigen::Index u = 0; u < n_; ++u) J(u, u) += mass_[u] / dt_;
+    for (Eigen::Index k = 0; k < n_ + nodes_; ++k)
+      if (held_[k]) {
+        J.row(k).setZero();
+        J(k, k) = 1.0;
+      }
+    return J;
+  }
+  /// One correction; true when it was small.
+  bool correct() {
+    middle_ = (1.0 - theta_) * v_ + theta_ * v1_;
+    const Vector pressure = (1.0 - theta_) * p_ + theta_ * p1_;
+    trial_ = deform(s_, dt_ * middle_);
+    push_ = (1.0 - theta_) * force_ + theta_ * trial_.force - o_.Q * pressure;
+    Vector R(n_ + nodes_);
+    R << mass_.cwiseProduct(v1_ - v_) / dt_ + push_ + damping_ * middle_ - weight_,
+        o_.S * (p1_ - p_) / dt_ + o_.H * pressure + o_.Q.transpose() * middle_ + o_.gravity_flow;
+    for (Eigen::Index k = 0; k < n_ + nodes_; ++k)
+      if (held_[k]) R[k] = 0.0;
+    const Vector change = lu_.solve(R);
+    v1_ -= change.head(n_);
+    p1_ -= change.tail(nodes_);
+    return change.head(n_).cwiseAbs().maxCoeff() <= 1e-7 &&
+           change.tail(nodes_).cwiseAbs().maxCoeff() <= 1.0;
+  }
+  void add_work() {
+    const Vector inertia = mass_.cwiseProduct(v1_ - v_) / dt_;
+    const Vector lost = damping_ * middle_;
+    for (Eigen::Index k = 0; k < n_; ++k) {
+      energy_.deformation += dt_ * push_[k] * middle_[k];
+      energy_.damping += dt_ * lost[k] * middle_[k];
+      energy_.weight += dt_ * weight_[k] * middle_[k];
+      if (s_.prescribed[k])
+        energy_.base += dt_ * (inertia[k] + push_[k] + lost[k] - weight_[k]) * middle_[k];
+    }
+  }
+  void keep() {
+    s_.state.stress = trial_.stress;
+    std::get<fem::LawStates<PM4Sand>>(s_.state.laws).of = trial_.sand;
+    for (std::size_t e = 0; e < s_.state.hourglass_x.size(); ++e)
+      for (int i = 0; i < 4; ++i) {
+        const double gamma = s_.layout.elements.gamma[i][e];
+        s_.state.hourglass_x[e] += gamma * dt_ * middle_[s_.layout.dofs[e][2 * i]];
+        s_.state.hourglass_y[e] += gamma * dt_ * middle_[s_.layout.dofs[e][2 * i + 1]];
+      }
+    force_ = trial_.force;
+    u_ += dt_ * middle_;
+    v_ = v1_;
+    p_ = p1_;
+  }
+
+  Solver& s_;
+  Operators o_;
+  double dt_, theta_;
+  Eigen::Index n_, nodes_;
+  Eigen::Map<const Vector> mass_;
+  Eigen::Map<Vector> p_;  ///< pressures, those of the state
+  Vector v_, u_, force_, weight_;
+  Matrix damping_;
+  std::vector<bool> held_;
+  Eigen::PartialPivLU<Matrix> lu_;
+  Vector v1_, p1_, middle_, push_;  ///< of the step that is taken
+  Trial trial_;
+  Energy energy_;
+};
+
+History shake_implicitly(double dt, double theta) {
+  Solver s = column();
+  Trapezoidal rule(s, dt, theta);
   History h{{0.0}, {0.0}};
   for (double t = 0.0; t < kEnd - 0.5 * dt; t += dt) {
-    Vector v1 = v, p1 = p, change;
-    for (Eigen::Index k = 0; k < n; ++k)
-      if (s.prescribed[k]) v1[k] = ground(t + dt);
-    Trial trial;
-    Vector middle, push;
-    int iteration = 0;
-    do {
-      if (++iteration > kIterations)
-        throw NumericsError(fmt::format("implicit step at {:.4f} s does not converge", t));
-      middle = (1.0 - theta) * v + theta * v1;
-      const Vector pressure = (1.0 - theta) * p + theta * p1;
-      trial = deform(s, dt * middle);
-      push = (1.0 - theta) * force + theta * trial.force - o.Q * pressure;
-      Vector R(n + nodes);
-      R << mass.cwiseProduct(v1 - v) / dt + push + damping * middle - weight,
-          o.S * (p1 - p) / dt + o.H * pressure + o.Q.transpose() * middle + o.gravity_flow;
-      for (Eigen::Index k = 0; k < n + nodes; ++k)
-        if (held[k]) R[k] = 0.0;
-      change = lu.solve(R);
-      v1 -= change.head(n);
-      p1 -= change.tail(nodes);
-    } while (change.head(n).cwiseAbs().maxCoeff() > 1e-7 ||
-             change.tail(nodes).cwiseAbs().maxCoeff() > 1.0);
-    const Vector inertia = mass.cwiseProduct(v1 - v) / dt;
-    for (Eigen::Index k = 0; k < n; ++k) {
-      const double lost = (damping * middle)[k];
-      energy.deformation += dt * push[k] * middle[k];
-      energy.damping += dt * lost * middle[k];
-      energy.weight += dt * weight[k] * middle[k];
-      if (s.prescribed[k])
-        energy.base += dt * (inertia[k] + push[k] + lost - weight[k]) * middle[k];
-    }
-    s.state.stress = trial.stress;
-    std::get<fem::LawStates<PM4Sand>>(s.state.laws).of = trial.sand;
-    for (std::size_t e = 0; e < s.state.hourglass_x.size(); ++e)
-      for (int i = 0; i < 4; ++i) {
-        const double gamma = s.layout.elements.gamma[i][e];
-        s.state.hourglass_x[e] += gamma * dt * middle[s.layout.dofs[e][2 * i]];
-        s.state.hourglass_y[e] += gamma * dt * middle[s.layout.dofs[e][2 * i + 1]];
-      }
-    force = trial.force;
-    u += dt * middle;
-    v = v1;
-    p = p1;
+    rule.step(t, ground(t + dt));
     h.time.push_back(t + dt);
-    h.top.push_back(u[s.model.dof.back()[0]]);
+    h.top.push_back(rule.displacement()[s.model.dof.back()[0]]);
   }
-  energy.kinetic = 0.5 * v.dot(mass.cwiseProduct(v));
   h.r_u = middle_r_u(s);
-  h.energy_error = energy.error();
+  h.energy_error = rule.energy().error();
   return h;
 }
 

@@ -33,7 +33,7 @@ struct Layer {
     config.ground.surface = {{0.0, 0.0}};
     config.ground.friction = 1e6;
     PeriodicStrip s(points(soil, sheared), 4.0 * cell, config);
-    s.trial.sim.settings.gravity = {kGravity * sin(angle), -kGravity * cos(angle), 0.0};
+    s.trial.sim.gravity = {kGravity * sin(angle), -kGravity * cos(angle), 0.0};
     return s;
   }
 };

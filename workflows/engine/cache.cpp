@@ -146,7 +146,8 @@ Decision decide(const fs::path& run_folder, const WorkflowStage& stage,
     if (!previous || previous->key != decision.key)
       remarks.emplace_back("earlier result with these settings");
     if (decision.record->program != program_version())
-      remarks.push_back("made by " + short_version(decision.record->program));
+      remarks.push_back(fmt::format("made by {}; --redo {} runs it again",
+                                    short_version(decision.record->program), stage.name));
     if (!remarks.empty()) decision.why += fmt::format(" ({})", fmt::join(remarks, ", "));
     return decision;
   }

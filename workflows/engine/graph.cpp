@@ -216,6 +216,47 @@ void preview_stages(Workflow& workflow, const YamlNode& stages, Problems& proble
   }
 }
 
+void check_schema(const YamlNode& document) {
+  const auto schema = document.find("schema");
+  if (!schema)
+    throw document.error(
+        fmt::format("the file has no 'schema' (the version of its format). "
+                    "Write 'schema: {}' as its first line.",
+                    kSchemaVersion));
+  if (schema->scalar() != std::to_string(kSchemaVersion))
+    throw schema->error(fmt::format("schema {} is not known to this program (it reads {}).",
+                                    schema->scalar(), kSchemaVersion));
+}
+
+using Entries = std::vector<std::pair<std::string, YamlNode>>;
+
+/// The stages of the file with their types and settings; a type without a name where it is wrong.
+std::vector<Draft> draft_stages(const Entries& entries, std::span<const StageType> types,
+                                Problems& problems) {
+  std::vector<Draft> drafts;
+  for (const auto& [name, node] : entries) {
+    Draft& draft = drafts.emplace_back();
+    draft.stage.name = name;
+    problems.collect([&, &name = name, &node = node] {
+      if (!is_name(name))
+        throw node.error(
+            fmt::format("'{}' cannot be a stage's name (it becomes a folder). "
+                        "Use letters, digits, '-' and '_'.",
+                        name));
+      refuse_unknown_keys(node, {"uses", "in", "with"});
+      std::vector<std::string> others;
+      for (const auto& [other, unused] : entries)
+        if (other != name) others.push_back(other);
+      draft.stage.type = find_type(node, types, others);
+    });
+    if (draft.stage.type.name.empty()) continue;
+    problems.collect([&, &node = node] {
+      draft.stage.prepared = draft.stage.type.prepare(node.find("with"), node);
+    });
+  }
+  return drafts;
+}
+
 }  // namespace
 
 std::string workflow_name(const YamlNode& document) {
@@ -237,17 +278,7 @@ Workflow load_workflow(const std::filesystem::path& path, std::span<const std::s
   problems.collect([&] {
     refuse_unknown_keys(document, {"schema", "name", "description", "stages"});
   });
-  problems.collect([&] {
-    const auto schema = document.find("schema");
-    if (!schema)
-      throw document.error(
-          fmt::format("the file has no 'schema' (the version of its format). "
-                      "Write 'schema: {}' as its first line.",
-                      kSchemaVersion));
-    if (schema->scalar() != std::to_string(kSchemaVersion))
-      throw schema->error(fmt::format("schema {} is not known to this program (it reads {}).",
-                                      schema->scalar(), kSchemaVersion));
-  });
+  problems.collect([&] { check_schema(document); });
   problems.collect([&] { workflow.name = workflow_name(document); });
 
   const auto stages = document.find("stages");
@@ -257,28 +288,8 @@ Workflow load_workflow(const std::filesystem::path& path, std::span<const std::s
   });
   problems.raise();
 
-  std::vector<Draft> drafts;
-  const auto entries = stages->entries();
-  for (const auto& [name, node] : entries) {
-    Draft& draft = drafts.emplace_back();
-    draft.stage.name = name;
-    problems.collect([&, &name = name, &node = node] {
-      if (!is_name(name))
-        throw node.error(
-            fmt::format("'{}' cannot be a stage's name (it becomes a folder). "
-                        "Use letters, digits, '-' and '_'.",
-                        name));
-      refuse_unknown_keys(node, {"uses", "in", "with"});
-      std::vector<std::string> others;
-      for (const auto& [other, unused] : entries)
-        if (other != name) others.push_back(other);
-      draft.stage.type = find_type(node, types, others);
-    });
-    if (draft.stage.type.name.empty()) continue;
-    problems.collect([&, &node = node] {
-      draft.stage.prepared = draft.stage.type.prepare(node.find("with"), node);
-    });
-  }
+  const Entries entries = stages->entries();
+  std::vector<Draft> drafts = draft_stages(entries, types, problems);
   for (std::size_t i = 0; i < drafts.size(); ++i) {
     if (drafts[i].stage.type.name.empty()) continue;
     problems.collect([&] { connect(drafts[i], entries[i].second, drafts); });

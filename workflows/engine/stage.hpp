@@ -75,9 +75,12 @@ struct Schema<NoSettings> {
 ///     struct ZoneStage {
 ///       static constexpr std::string_view name = "transfer.zone";  // what `uses:` says
 ///       static constexpr std::string_view doc = "Finds the liquefied zone.";
-///       static constexpr int version = 1;           // raised when the same input gives new
-///       results static constexpr bool checkpoints = false;  // true: a killed run gets its folder
-///       back using Config = ZoneConfig;                  // has a Schema struct Inputs {
+///       // Raised when the same input gives new results.
+///       static constexpr int version = 1;
+///       // True: a killed run gets its folder back.
+///       static constexpr bool checkpoints = false;
+///       using Config = ZoneConfig;  // has a Schema
+///       struct Inputs {
 ///         Artifact<FemHistory> history;
 ///         void visit(auto&& port) { port("history", history); }
 ///       };

@@ -1,0 +1,70 @@
+#pragma once
+#include "core/progress.hpp"
+#include "model/checkpoint_file.hpp"
+
+#include <chrono>
+#include <concepts>
+#include <filesystem>
+#include <string>
+
+/// What long runs have in common, whatever they solve: progress, checkpoints now and then and when
+/// the run is interrupted, and an end that leaves nothing but the history. docs/adr/0008-checkpoints.md
+namespace flowslide {
+
+inline constexpr double kReportSeconds = 0.2;  ///< wall time between progress reports
+
+/// A run that takes steps and records states in a history that lies in parts until it is finished.
+template <class R>
+concept LongRun = requires(R& run, const R& now, double seconds) {
+  { run.step() } -> std::same_as<bool>;       ///< one step; true if it recorded a state
+  { now.ended() } -> std::same_as<bool>;      ///< false before the first step of the run
+  { now.share() } -> std::same_as<double>;    ///< of the work that is done, 0 to 1
+  { now.text() } -> std::same_as<std::string>;   ///< about its state, one short line
+  { now.place() } -> std::same_as<std::string>;  ///< where it is, for "interrupted at ..."
+  /// Flushes the history and then writes the checkpoint that counts what is in it; told the wall
+  /// time since run_to_end began.
+  run.save(seconds);
+  run.history.finish();
+  run.history.remove_parts();
+};
+
+/// Runs to the end; returns the wall time of the steps [s]. Throws Interrupted after save() when a
+/// stop is asked for, and what the run throws.
+template <LongRun R>
+double run_to_end(R& run, const std::filesystem::path& checkpoint, const Progress& progress) {
+  using Clock = std::chrono::steady_clock;
+  const auto since = [](Clock::time_point t) {
+    return std::chrono::duration<double>(Clock::now() - t).count();
+  };
+  const Clock::time_point start = Clock::now();
+  Clock::time_point last_report = start, last_save = start;
+  while (!run.ended()) {
+    const bool recorded = run.step();
+    if (recorded || run.ended() || since(last_report) > kReportSeconds) {
+      progress.report(run.ended() ? 1.0 : run.share(), run.text());
+      last_report = Clock::now();
+    }
+    if (run.ended()) break;
+    if (progress.should_stop()) {
+      run.save(since(start));
+      throw Interrupted("interrupted at " + run.place() +
+                        "; the same command continues from there");
+    }
+    if (since(last_save) > kCheckpointSeconds) {
+      run.save(since(start));
+      last_save = Clock::now();
+    }
+  }
+  const double seconds = since(start);
+  run.history.finish();
+  remove_checkpoint(checkpoint);
+  run.history.remove_parts();
+  return seconds;
+}
+
+/// Moves the time of the next output beyond `now`.
+inline void pass_output(double& next, double now, double interval) {
+  while (next <= now) next += interval;
+}
+
+}  // namespace flowslide
