@@ -51,8 +51,7 @@ void write_plot_data(const std::filesystem::path& folder, const FemHistory& hist
   write_npy(folder / "final.npy", final_points(p, flow.frame(flow.num_frames() - 1), end));
   write_npy(folder / "elements.npy", elements(mesh, zone));
   write_npy(folder / "outline.npy", outline_segments(mesh));
-  write_npy(folder / "water.npy",
-            water_surface(mesh, history.gravity().pore_pressure));
+  write_npy(folder / "water.npy", water_surface(mesh, history.gravity().pore_pressure));
   Json j;
   j["toe_m"] = facts.toe;
   j["front_m"] = facts.front;

@@ -25,8 +25,8 @@ struct ReportInputs {
   const MpmHistory& flow;
   /// What identifies the run, as (name, text) rows: workflow, versions, hashes of the inputs.
   std::vector<std::pair<std::string, std::string>> provenance;
-  std::vector<std::string> warnings = {};  ///< of the stages before, one sentence each
-  std::vector<ToldStage> stages = {};      ///< that the report builds on, in their order
+  std::vector<std::string> warnings = {};   ///< of the stages before, one sentence each
+  std::vector<ToldStage> stages = {};       ///< that the report builds on, in their order
   std::optional<GroundMotion> motion = {};  ///< that shook the section, if there was one
   std::string date = {};                    ///< of the report, "2026-11-28"; empty: not said
 };

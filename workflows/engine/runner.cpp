@@ -167,8 +167,7 @@ std::vector<PlanLine> plan_workflow(const Workflow& workflow, const fs::path& fo
     add_earlier(inputs, workflow, stage, folder, results);
     plan.push_back({stage.name, decide(folder, stage, inputs.hashes, previous)});
     Decision& decision = plan.back().decision;
-    decision.warnings =
-        warnings_of(stage, decision.record ? &*decision.record : nullptr);
+    decision.warnings = warnings_of(stage, decision.record ? &*decision.record : nullptr);
     results.emplace_back();
     if (decision.action == Action::reuse)
       results.back() = StageState{*decision.record, decision.files};

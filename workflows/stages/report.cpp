@@ -69,9 +69,9 @@ struct ReportStage {
           "workflow, and `flowslide convert` mpm.h5 for ParaView, docs/guide/valley.md");
     for (const auto& [name, region] : config.regions)
       if (region.outline.size() < 3)
-        found.errors.push_back(fmt::format(
-            "regions.{}: {} corners (a region needs three or more) give its outline", name,
-            region.outline.size()));
+        found.errors.push_back(
+            fmt::format("regions.{}: {} corners (a region needs three or more) give its outline",
+                        name, region.outline.size()));
     if (p.flow && config.toe &&
         std::abs(*config.toe - p.flow->toe) > 1e-9 * (1.0 + std::abs(p.flow->toe)))
       found.warnings.push_back(fmt::format(
