@@ -188,6 +188,8 @@ void Schema<FlowConfig>::describe(FieldVisitor& v, FlowConfig& c) {
   v.group("rest", c.rest, Schema<RestRule>::doc);
   v.quantity("frame_interval", c.frame_interval, Dim::time, {.above = 0.0},
              "time between stored states");
+  v.quantity("frame_travel", c.frame_travel, Dim::length, {.above = 0.0},
+             "a state is stored earlier where the fastest point may have come this far since one");
   v.quantity("sample_interval", c.sample_interval, Dim::time, {.above = 0.0},
              "time between rows of the time series");
 }
