@@ -55,6 +55,7 @@ PM4Sand::Constants PM4Sand::constants(const Params& p) {
   c.Dr = p.Dr;
   c.Ado = p.Ado;
   c.z_max = p.z_max;
+  c.opensees_reversals = p.reversals == Reversals::opensees ? 1.0 : 0.0;
   c.max_strain_increment = p.max_strain_increment.value_or(kPointPrecision);
   c.tolerance = p.tolerance.value_or(kPointPrecision);
   return c;
@@ -160,6 +161,9 @@ void Schema<PM4Sand::Params>::describe(FieldVisitor& v, PM4Sand::Params& p) {
   v.quantity("max_strain_increment", p.max_strain_increment, Dim::none, {.min = 1e-8, .max = 1.0},
              "largest strain component of a sub-step; left out: 1e-4 in explicit steps of a mesh, "
              "else 1e-5");
+  v.choice("reversals", p.reversals, PM4Sand::reversals_names,
+           "what small cycles about a shear stress remember: the distance from the last reversal "
+           "until the one before is passed, or the rule as OpenSees has it");
   v.quantity("tolerance", p.tolerance, Dim::none, {.max = 1.0, .above = 0.0},
              "stress error of a sub-step relative to the stress, which larger errors divide; left "
              "out: as max_strain_increment");

@@ -26,7 +26,7 @@ template <class T>
 struct StateOf {
   DeviatorOf<T> alpha;       ///< back-stress ratio
   DeviatorOf<T> alpha_in;    ///< apparent initial back-stress ratio of this loading branch
-  DeviatorOf<T> alpha_in_p;  ///< that of the previous branch
+  DeviatorOf<T> alpha_in_p;  ///< back-stress ratio at the reversal before the last
   DeviatorOf<T> alpha_true;  ///< back-stress ratio at the last reversal
   DeviatorOf<T> alpha_max;   ///< largest negative initial ratio so far, by component
   DeviatorOf<T> alpha_min;   ///< smallest positive one
@@ -64,6 +64,7 @@ struct SoilOf {
   T density_rate;  ///< D_R = density_rate (emax - e)
   T void_rate;     ///< de = -void_rate deps_v, 1 + e_init
   T P_atm, Fsed_min, p_sedo, tolerance;
+  T opensees_reversals = 0.0;  ///< 1: small cycles remember what they do in OpenSees
   T post_shake = 0.0;  ///< 1: softer elasticity while the soil settles; the caller sets it then
 };
 
@@ -76,6 +77,10 @@ struct SoilOf {
 struct PM4Sand {
   static constexpr std::string_view name = "pm4sand";
   static constexpr bool plane_mean_stress = true;  ///< sigma_zz is (xx + yy)/2
+
+  /// What small cycles about a shear stress remember: docs/theory/pm4sand.md, "Reversals".
+  enum class Reversals { published, opensees };
+  static constexpr std::array<std::string_view, 2> reversals_names{"published", "opensees"};
 
   /// Names and defaults of the OpenSees command; the density is the element's business.
   struct Params {
@@ -102,6 +107,7 @@ struct PM4Sand {
     /// Largest strain component of a sub-step, and its allowed relative stress error. Unset: 1e-4
     /// in explicit steps of a mesh, else 1e-5.
     std::optional<double> max_strain_increment, tolerance;
+    Reversals reversals = Reversals::published;
   };
 
   using Deviator = pm4sand::DeviatorOf<double>;

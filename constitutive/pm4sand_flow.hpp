@@ -158,7 +158,7 @@ struct Flow {
 /// Where a point stands along its loading direction.
 template <class T>
 struct Along {
-  T from_initial;  ///< (alpha - alpha_in) : n
+  T contracted;    ///< distance from the start of the branch that contraction counts
   T z_n;           ///< z : n
   T minus_z_n;     ///< <-z : n>
   T to_dilatancy;  ///< (alpha_d - alpha) : n
@@ -194,7 +194,7 @@ T contraction(const SoilOf<T>& c, const StateOf<T>& s, const History<T>& h, cons
   const T loose = positive(0.5 - l.surfaces.xi);
   const T inverse_hp = c.inverse_hpo * exp(0.7 - 7.0 * loose * loose);
   const T A_dc = s.A_do * (1.0 + positive(w.z_n)) * inverse_hp * h.inverse_C_dz;
-  const T x = w.from_initial + kRoot2 * positive(w.z_n) * h.inverse_z_max;
+  const T x = w.contracted + kRoot2 * positive(w.z_n) * h.inverse_z_max;
   const T D = min(A_dc * x * x, 1.5 * s.A_do) * w.to_dilatancy / (w.to_dilatancy + 0.16);
   return D * clamp((l.p - 2.0 * s.p_min) * h.inverse_p_min * (1.0 / 16.0), 0.0, 1.0);
 }
@@ -212,18 +212,20 @@ Flow<T> flow(const SoilOf<T>& c, const StateOf<T>& s, const History<T>& h, const
   const T alpha_n = dot(at.alpha, r.n);
   const T to_bounding = kRootHalf * (l.surfaces.Mb - c.m) - alpha_n;
   w.to_dilatancy = kRootHalf * (l.surfaces.Md - c.m) - alpha_n;
-  w.from_initial = alpha_n - dot(s.alpha_in, r.n);
   w.z_n = dot(at.z, r.n);
   w.minus_z_n = positive(-w.z_n);
 
   // plastic modulus, eqs (8) to (11), as one quotient
+  const auto opensees = c.opensees_reversals > T(0.0);
+  const T from_initial = alpha_n - dot(s.alpha_in, r.n);
   const T from_true = positive(alpha_n - dot(s.alpha_true, r.n));
-  const T apparent = positive(w.from_initial);
+  const T apparent = select(opensees, positive(from_initial), max(from_initial, from_true));
   const T below_pzp = positive(s.p_zp - l.p);
   const T below_C_ka = (1.0 + 6.25 * from_true * from_true) * (below_pzp + s.p_min);
   const T above_C_ka = below_C_ka + c.Ckaf * below_pzp * h.C_zpk1;
   const T root_b = sqrt(max(abs(to_bounding), T(1e-10)));
   const auto returns = alpha_n <= dot(s.alpha_in_p, r.n);
+  w.contracted = select(opensees, from_initial, select(returns, from_true, apparent));
   const T above = l.G * c.h0 * above_C_ka * select(returns, apparent + c.C_g1, T(1.0));
   const T below = below_C_ka * (exp(apparent) - 1.0 + c.C_g1) * root_b *
                   (1.0 + 2.0 * h.peak_ratio * positive(to_bounding) * h.root_zpk2) *

@@ -85,9 +85,10 @@ T elastic_part(T m, const PointOf<T>& from, const Rates<T>& step) {
 /// A reversal of loading where `turns`: the present back-stress ratio becomes the initial one,
 /// limited by the earlier branches where the shear stress has not changed its sign.
 template <class Mask, class T>
-void reverse(StateOf<T>& state, const Mask& turns, const PointOf<T>& at, const DeviatorOf<T>& n) {
+void reverse(const SoilOf<T>& c, StateOf<T>& state, const Mask& turns, const PointOf<T>& at,
+             const DeviatorOf<T>& n) {
   StateOf<T> s = state;
-  s.alpha_in_p = s.alpha_in;
+  s.alpha_in_p = select(c.opensees_reversals > T(0.0), s.alpha_in, s.alpha_true);
   s.alpha_true = at.alpha;
   s.z_in = at.z;
   const T p = max(at.p, s.p_min), zp = norm(at.z) * p;
@@ -144,7 +145,7 @@ Trial<T> attempt(const SoilOf<T>& c, StateOf<T>& s, const PointOf<T>& at, const 
   const Rates<T> elastic = elastic_rates(c, start.G, step);
   const DeviatorOf<T> n = (at.s + elastic.s) - (at.p + elastic.p) * at.alpha;
   const auto turns = dot(at.alpha - s.alpha_true, n) < T(0.0);
-  if (any(turns)) reverse(s, turns, at, n);
+  if (any(turns)) reverse(c, s, turns, at, n);
 
   const T a = elastic_part(c.m, at, elastic);
   const auto stays = a >= T(1.0), some = a > T(0.0);
@@ -157,7 +158,8 @@ Trial<T> attempt(const SoilOf<T>& c, StateOf<T>& s, const PointOf<T>& at, const 
     // G follows sqrt(p): what an elastic step with the modulus of its start misses
     elastic_error = a * a * abs(elastic.p) * stress_norm(elastic.p, elastic.s) / (2.0 * start.p);
   }
-  Trial<T> r{from, select(from.p > T(0.0) || forced, elastic_error, size), size, start.surfaces.Mb};
+  Trial<T> r{
+      from, select(from.p > T(0.0) || forced, elastic_error, size), size, start.surfaces.Mb};
   if (all(stays)) return r;
 
   const StrainOf<T> rest{(1.0 - a) * step.volumetric, (1.0 - a) * step.deviator};

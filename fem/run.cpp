@@ -215,7 +215,9 @@ struct Shaking {
     run.seconds = seconds_before + seconds;
     write_checkpoint(checkpoint, origin, s, run);
   }
-  [[nodiscard]] double share() const { return s.state.time / end; }
+  [[nodiscard]] Share share() const {
+    return {s.state.time / end, bool(rule.ends) || config.stop_displacement};
+  }
   [[nodiscard]] std::string text() const {
     return fmt::format("{:.2f} s, step {:.3g} s", s.state.time, s.dt);
   }
@@ -286,21 +288,22 @@ FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const F
     read_checkpoint(paths.checkpoint, origin, s, run);
     check_progress(paths.checkpoint, s, run, end, config.output_interval);
   }
-  Shaking shaking{.s = s,
-                  .run = run,
-                  .config = config,
-                  .end = end,
-                  .take_step = std::move(step),
-                  .rule = rule,
-                  .checkpoint = paths.checkpoint,
-                  .origin = origin,
-                  .base = nodes_of(find_set(section, "base")),
-                  .frame = rest,
-                  .history = ResumableHistoryWriter(
-                      paths.history, section.mesh,
-                      {"flowslide fem.run",
-                       "mean of xx and yy for PM4Sand, elastic plane strain for other laws", notes},
-                      rest, static_cast<std::size_t>(run.output - 1))};
+  Shaking shaking{
+      .s = s,
+      .run = run,
+      .config = config,
+      .end = end,
+      .take_step = std::move(step),
+      .rule = rule,
+      .checkpoint = paths.checkpoint,
+      .origin = origin,
+      .base = nodes_of(find_set(section, "base")),
+      .frame = rest,
+      .history = ResumableHistoryWriter(
+          paths.history, section.mesh, history_materials(section, config),
+          {"flowslide fem.run",
+           "mean of xx and yy for PM4Sand, elastic plane strain for other laws", notes},
+          rest, static_cast<std::size_t>(run.output - 1))};
   shaking.show_states_before();
   facts.seconds = shaking.seconds_before + run_to_end(shaking, paths.checkpoint, progress);
   facts.stopped = shaking.stopped;

@@ -1,18 +1,32 @@
 #include "report/report.hpp"
 
 #include "report/figures.hpp"
+#include "workflows/stages/cross_checks.hpp"
 #include "workflows/stages/preview.hpp"
 #include "workflows/stages/stage_list.hpp"
-
-#include <cmath>
 
 namespace flowslide {
 namespace {
 
+std::vector<Headline> headlines(const ReportFacts& f) {
+  Headline runout{"runout_m", "runout", "m"};
+  // How far the front stopped before the toe says whether the toe is the right one.
+  if (f.runout == 0.0)
+    runout.note = fmt::format("the front, at x = {:.4g} m, is {:.4g} m short of the toe", f.front,
+                              f.toe - f.front);
+  std::vector<Headline> all{std::move(runout)};
+  for (const auto& [window, depth] : f.liquefaction_depth)
+    all.push_back({"liquefaction_depth_" + window + "_m", "liquefaction depth, " + window, "m"});
+  all.push_back({"transfer_time_s", "transfer at", "s"});
+  all.push_back({"mass_error", "mass error"});
+  all.push_back({"energy_error", "energy error"});
+  return all;
+}
+
 struct ReportStage {
   static constexpr std::string_view name = "report.runout";
   static constexpr std::string_view doc = "Facts, figures, tables and ParaView files of a runout.";
-  static constexpr int version = 3;
+  static constexpr int version = 4;
   static constexpr bool checkpoints = false;
   static constexpr bool reads_warnings = true;
   using Config = ReportConfig;
@@ -40,6 +54,7 @@ struct ReportStage {
   }
   static std::any preview(const Config& config, const Previews& in, Findings& found) {
     Preview p = merged(in);
+    p.toe = config.toe;
     if (p.flow && p.flow->extrude)
       found.errors.emplace_back(
           "the runout has three dimensions (the report draws sections) take this stage out of the "
@@ -49,11 +64,8 @@ struct ReportStage {
         found.errors.push_back(fmt::format(
             "regions.{}: {} corners (a region needs three or more) give its outline", name,
             region.outline.size()));
-    if (p.flow && config.toe &&
-        std::abs(*config.toe - p.flow->toe) > 1e-9 * (1.0 + std::abs(p.flow->toe)))
-      found.warnings.push_back(fmt::format(
-          "toe: x = {:g} m, but the runout stage has {:g} m: its time series counts from there.",
-          *config.toe, p.flow->toe));
+    if (config.toe && p.flow && p.map && p.section && !p.materials.empty())
+      check_toe(*config.toe, *p.flow, soil_of(*p.section, *p.map, p.materials), found);
     return p;
   }
   static StageResult run(const RunContext& context, const Config& config, const Inputs& in,
@@ -65,7 +77,10 @@ struct ReportStage {
     const ReportFacts facts = write_report({history, zone, particles, in.audit.path, flow,
                                             context.provenance, context.warnings},
                                            config, out.report.path, context.progress);
-    StageResult result{.facts = to_json(facts), .publish = {"report"}, .warnings = facts.warnings};
+    StageResult result{.facts = to_json(facts),
+                       .publish = {"report"},
+                       .warnings = facts.warnings,
+                       .headlines = headlines(facts)};
     for (const char* file : {"report/flow.pvd", "report/zone.pvd"})
       if (std::filesystem::exists(context.folder / file)) result.publish.emplace_back(file);
     if (config.figures) {
