@@ -20,6 +20,7 @@ void add_plot(CLI::App& app, Command& action);
 void add_point(CLI::App& app, Command& action);
 void add_motion(CLI::App& app, Command& action);
 void add_report(CLI::App& app, Command& action);
+void add_study(CLI::App& app, Command& action);
 void add_verify(CLI::App& app, Command& action);
 void add_bench(CLI::App& app, Command& action);
 void add_schema(CLI::App& app, Command& action);

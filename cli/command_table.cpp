@@ -35,7 +35,13 @@ OptionRow row(const CLI::App& command, const CLI::Option& option) {
 std::vector<CommandRow> command_table(const CLI::App& app) {
   std::vector<CommandRow> table;
   for (const CLI::App* command : app.get_subcommands(nullptr)) {
+    if (command->get_group().empty()) continue;  // of no use to people
     CommandRow c{command->get_name(), command->get_description(), {}};
+    for (CommandRow& below : command_table(*command)) {
+      below.name = c.name + " " + below.name;
+      table.push_back(std::move(below));
+    }
+    if (!command->get_subcommands(nullptr).empty()) continue;
     for (const CLI::Option* option : command->get_options())
       c.options.push_back(row(*command, *option));
     std::stable_partition(c.options.begin(), c.options.end(),

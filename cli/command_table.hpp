@@ -20,7 +20,8 @@ struct OptionRow {
 };
 
 struct CommandRow {
-  std::string name, doc;
+  std::string name;  ///< "run", "study run"
+  std::string doc;
   std::vector<OptionRow> options;  ///< positional ones first, in their order
 };
 

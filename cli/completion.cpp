@@ -2,6 +2,7 @@
 #include "cli/command_table.hpp"
 #include "workflows/engine/program_version.hpp"
 
+#include <map>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -36,20 +37,40 @@ std::string bash_words(const CommandRow& c, Takes takes) {
   return ":";
 }
 
+/// As a pattern of `case`.
+std::string pattern(const std::string& name) {
+  const std::size_t space = name.find(' ');
+  return space == std::string::npos ? name : name.substr(0, space) + "\\" + name.substr(space);
+}
+
+std::string first_word(const CommandRow& c) { return c.name.substr(0, c.name.find(' ')); }
+
+/// Commands of two words, by the first.
+std::map<std::string, std::vector<const CommandRow*>> commands_below(
+    const std::vector<CommandRow>& table) {
+  std::map<std::string, std::vector<const CommandRow*>> below;
+  for (const CommandRow& c : table)
+    if (c.name.find(' ') != std::string::npos) below[first_word(c)].push_back(&c);
+  return below;
+}
+
+std::string second_word(const CommandRow& c) { return c.name.substr(c.name.find(' ') + 1); }
+
 std::string bash_command(const CommandRow& c) {
   std::string names = "--help", values;
   for (const OptionRow& o : c.options) {
     if (o.positional) continue;
     if (o.name != "--help") names += " " + o.name;
     if (o.takes != Takes::nothing)
-      values += fmt::format("    {}:{}) {}; return ;;\n", c.name, o.name, bash_words(c, o.takes));
+      values +=
+          fmt::format("    {}:{}) {}; return ;;\n", pattern(c.name), o.name, bash_words(c, o.takes));
   }
   const OptionRow* first = positional(c);
   return values + fmt::format(
                       "    {0}:*)\n      if [[ $cur == -* ]]; then\n"
                       "        mapfile -t COMPREPLY < <(compgen -W \"{1}\" -- \"$cur\")\n"
                       "      else\n        {2}\n      fi ;;\n",
-                      c.name, names, first ? bash_words(c, first->takes) : ":");
+                      pattern(c.name), names, first ? bash_words(c, first->takes) : ":");
 }
 
 /// Inside '...' of a zsh specification, where brackets and colons have a meaning too.
@@ -85,7 +106,7 @@ std::string zsh_action(const CommandRow& c, Takes takes) {
 }
 
 std::string zsh_command(const CommandRow& c) {
-  std::string text = fmt::format("    {})\n      _arguments", c.name);
+  std::string text = fmt::format("    {})\n      _arguments", pattern(c.name));
   for (const OptionRow& o : c.options) {
     const std::string action = zsh_action(c, o.takes);
     if (o.positional)
@@ -104,8 +125,22 @@ std::string zsh_command(const CommandRow& c) {
 std::string bash_completion(const std::vector<CommandRow>& table) {
   std::string commands = "--help --version", cases;
   for (const CommandRow& c : table) {
-    commands += " " + c.name;
+    if (const std::string word = " " + first_word(c); !commands.ends_with(word)) commands += word;
     cases += bash_command(c);
+  }
+  std::string below;
+  for (const auto& [word, list] : commands_below(table)) {
+    std::string words;
+    for (const CommandRow* c : list) words += (words.empty() ? "" : " ") + second_word(*c);
+    below += fmt::format(
+        "  if [[ $command == {0} ]]; then\n"
+        "    if [ \"$COMP_CWORD\" -eq 2 ]; then\n"
+        "      mapfile -t COMPREPLY < <(compgen -W \"{1}\" -- \"$cur\")\n"
+        "      return\n"
+        "    fi\n"
+        "    command=\"{0} ${{COMP_WORDS[2]}}\"\n"
+        "  fi\n",
+        word, words);
   }
   return fmt::format(
       "# bash completion of flowslide\n"
@@ -116,17 +151,40 @@ std::string bash_completion(const std::vector<CommandRow>& table) {
       "    mapfile -t COMPREPLY < <(compgen -W \"{}\" -- \"$cur\")\n"
       "    return\n"
       "  fi\n"
-      "  case ${{COMP_WORDS[1]}}:$before in\n{}  esac\n"
+      "  local command=${{COMP_WORDS[1]}}\n{}"
+      "  case $command:$before in\n{}  esac\n"
       "}}\n"
       "complete -F _flowslide flowslide\n",
-      commands, cases);
+      commands, below, cases);
 }
 
 std::string zsh_completion(const std::vector<CommandRow>& table) {
   std::string commands, cases;
   for (const CommandRow& c : table) {
-    commands += fmt::format("    '{}:{}'\n", c.name, zsh_text(c.doc));
+    if (c.name.find(' ') == std::string::npos)
+      commands += fmt::format("    '{}:{}'\n", c.name, zsh_text(c.doc));
     cases += zsh_command(c);
+  }
+  std::string below;
+  for (const auto& [word, list] : commands_below(table)) {
+    std::string words, lines;
+    for (const CommandRow* c : list) {
+      words += (words.empty() ? "" : ", ") + second_word(*c);
+      lines += fmt::format("        '{}:{}'\n", second_word(*c), zsh_text(c->doc));
+    }
+    commands += fmt::format("    '{}:{}'\n", word, words);
+    below += fmt::format(
+        "  if [[ $command == {0} ]]; then\n"
+        "    if (( CURRENT == 2 )); then\n"
+        "      commands=(\n{1}      )\n"
+        "      _describe command commands\n"
+        "      return\n"
+        "    fi\n"
+        "    command=\"{0} $words[2]\"\n"
+        "    shift words\n"
+        "    (( CURRENT-- ))\n"
+        "  fi\n",
+        word, lines);
   }
   return fmt::format(
       "#compdef flowslide\n"
@@ -137,10 +195,10 @@ std::string zsh_completion(const std::vector<CommandRow>& table) {
       "else\n"
       "  local command=$words[2]\n"
       "  shift words\n"
-      "  (( CURRENT-- ))\n"
+      "  (( CURRENT-- ))\n{}"
       "  case $command in\n{}  esac\n"
       "fi\n",
-      commands, cases);
+      commands, below, cases);
 }
 
 void add_completion(CLI::App& app, Command& action) {

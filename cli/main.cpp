@@ -81,6 +81,7 @@ int run(int argc, char** argv) {
   flowslide::cli::add_point(app, action);
   flowslide::cli::add_convert(app, action);
   flowslide::cli::add_report(app, action);
+  flowslide::cli::add_study(app, action);
   flowslide::cli::add_verify(app, action);
   flowslide::cli::add_bench(app, action);
   flowslide::cli::add_schema(app, action);

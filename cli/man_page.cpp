@@ -79,6 +79,7 @@ std::string man_page(const std::vector<CommandRow>& table, const std::string& ve
   return page +
          ".SH EXIT STATUS\n"
          ".TP\n0\ndone\n"
+         ".TP\n1\nsome rows of a study failed, the others are done\n"
          ".TP\n2\nthe input is wrong\n"
          ".TP\n3\nthe numerics failed\n"
          ".TP\n4\na file could not be read or written\n"

@@ -3,6 +3,7 @@
 #include "cli/terminal.hpp"
 #include "config/yaml.hpp"
 #include "core/check.hpp"
+#include "workflows/engine/headlines.hpp"
 #include "workflows/engine/lock.hpp"
 #include "workflows/engine/publish.hpp"
 #include "workflows/engine/runner.hpp"
@@ -56,16 +57,6 @@ void check_redo(const RunArguments& args, const Workflow& workflow) {
   }
 }
 
-/// A runout of 0 says that nothing passed the toe; how far the front stopped before it says whether
-/// the toe is the right one.
-std::string no_runout(const nlohmann::ordered_json& result) {
-  const auto front = result.find("front_m"), toe = result.find("toe_m");
-  if (front == result.end() || toe == result.end() || !front->is_number() || !toe->is_number())
-    return "0 m";
-  return fmt::format("0 m (the front, at x = {:.4g} m, is {:.4g} m short of the toe)",
-                     front->get<double>(), toe->get<double>() - front->get<double>());
-}
-
 void print_result(const fs::path& folder, std::size_t warnings) {
   const SealedJson file = read_sealed(folder / kResultFile);
   if (!file.json)
@@ -74,25 +65,12 @@ void print_result(const fs::path& folder, std::size_t warnings) {
   const nlohmann::ordered_json& result = *file.json;
   const bool narrow = ::isatty(STDOUT_FILENO) == 1 && terminal_columns(STDOUT_FILENO) < 60;
   const int label = narrow ? 24 : 30;
-  const auto line = [&](const std::string& key, const std::string& text, const char* unit) {
-    if (const auto at = result.find(key); at != result.end() && at->is_number())
-      fmt::print("{:<{}} {:.4g}{}{}\n", text, label, at->get<double>(), *unit ? " " : "", unit);
-  };
-  const auto runout = result.find("runout_m");
-  if (runout != result.end() && runout->is_number() && runout->get<double>() == 0.0)
-    fmt::print("{:<{}} {}\n", "runout", label, no_runout(result));
-  else
-    line("runout_m", "runout", "m");
-  constexpr std::string_view depth = "liquefaction_depth_";
-  for (const auto& [name, value] : result.items())
-    if (name.starts_with(depth) && name.ends_with("_m"))
-      line(name,
-           fmt::format("liquefaction depth, {}",
-                       name.substr(depth.size(), name.size() - depth.size() - 2)),
-           "m");
-  line("transfer_time_s", "transfer at", "s");
-  line("mass_error", "mass error", "");
-  line("energy_error", "energy error", "");
+  for (const Headline& h : headlines_of(result.dump())) {
+    const auto value = result.find(h.fact);
+    if (value == result.end() || !value->is_number()) continue;
+    fmt::print("{:<{}} {:.4g}{}{}{}\n", h.text, label, value->get<double>(),
+               h.unit.empty() ? "" : " ", h.unit, h.note.empty() ? "" : " (" + h.note + ")");
+  }
   if (warnings > 0) fmt::print("{:<{}} {}, see above\n", "warnings before use", label, warnings);
   fmt::print("{:<{}} {}\n", "result", label, (folder / kResultFile).string());
 }

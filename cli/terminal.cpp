@@ -26,16 +26,15 @@ std::size_t width_of(std::string_view text) {
   return text.size() - static_cast<std::size_t>(std::count_if(text.begin(), text.end(), continues));
 }
 
-/// Cuts at a column, never inside a UTF-8 character.
-std::string cut(std::string text, std::size_t columns) {
+}  // namespace
+
+std::string cut_to(std::string text, std::size_t columns) {
   if (width_of(text) <= columns) return text;
   std::size_t end = 0;
   for (std::size_t column = 0; end < text.size(); ++end)
     if (!continues(text[end]) && ++column > columns - 3) break;
   return text.substr(0, end) + "...";
 }
-
-}  // namespace
 
 std::size_t terminal_columns(int file) {
   constexpr std::size_t kLeast = 20, kUsual = 80, kMost = 10000;
@@ -110,8 +109,8 @@ RunEvents Display::events() {
     first_fraction_ = -1.0;
     last_tenth_ = 0;
   };
-  events.progress = [this](std::string_view stage, double fraction, std::string_view text) {
-    progress(stage, fraction, text);
+  events.progress = [this](std::string_view stage, Share share, std::string_view text) {
+    progress(stage, share, text);
   };
   events.done = [this](std::string_view stage, double seconds) { done(stage, seconds); };
   events.notice = [this](std::string_view text) { notice(text); };
@@ -134,10 +133,11 @@ void Display::plan(std::string_view stage, const Decision& decision) const {
                                     });
     why += fmt::format(", {} warning{}{}", n, n == 1 ? "" : "s", follow ? ":" : " (above)");
   }
-  fmt::print("{}\n", cut(fmt::format("{:<{}} {}{}", stage, kNameWidth, verb, why), columns_));
+  fmt::print("{}\n", cut_to(fmt::format("{:<{}} {}{}", stage, kNameWidth, verb, why), columns_));
 }
 
-void Display::progress(std::string_view stage, double fraction, std::string_view text) {
+void Display::progress(std::string_view stage, Share share, std::string_view text) {
+  const double fraction = share.done;
   if (!(fraction >= 0.0 && fraction <= 1.0)) return;
   if (first_fraction_ < 0.0) {
     first_fraction_ = fraction;
@@ -145,13 +145,15 @@ void Display::progress(std::string_view stage, double fraction, std::string_view
   }
   const double gained = fraction - first_fraction_;
   const std::string eta =
-      gained > 1e-6 ? clock_text(seconds_since(start_) * (1.0 - fraction) / gained) : "?";
+      gained > 1e-6 ? (share.at_least ? "<" : "") +
+                          clock_text(seconds_since(start_) * (1.0 - fraction) / gained)
+                    : "?";
   const int percent = static_cast<int>(fraction * 100.0);
   if (!terminal_) {
     const int tenth = static_cast<int>(fraction * 10.0);
     if (tenth <= last_tenth_ || tenth == 10) return;
     last_tenth_ = tenth;
-    fmt::print("{}\n", cut(fmt::format("{:<{}} {:>3} %  ETA {:>5}  {}", stage, kNameWidth, percent,
+    fmt::print("{}\n", cut_to(fmt::format("{:<{}} {:>3} %  ETA {:>5}  {}", stage, kNameWidth, percent,
                                        eta, text),
                            columns_));
     std::fflush(stdout);
@@ -164,7 +166,7 @@ void Display::progress(std::string_view stage, double fraction, std::string_view
   const int full = static_cast<int>(fraction * bar);
   const std::string drawn =
       bar > 0 ? fmt::format("[{:#<{}}{:-<{}}] ", "", full, "", bar - full) : "";
-  fmt::print("\r\033[K{}", cut(fmt::format("{:<{}} {}{:>3} %  ETA {:>5}  {}", stage, kNameWidth,
+  fmt::print("\r\033[K{}", cut_to(fmt::format("{:<{}} {}{:>3} %  ETA {:>5}  {}", stage, kNameWidth,
                                            drawn, percent, eta, text),
                                columns_));
   std::fflush(stdout);

@@ -20,6 +20,9 @@ std::size_t terminal_columns(int file);
 /// indented. A word that is longer stays whole.
 std::string wrapped(std::string_view text, std::size_t columns, std::size_t indent);
 
+/// Cuts at a column, never inside a UTF-8 character.
+std::string cut_to(std::string text, std::size_t columns);
+
 /// "warning: ..." on stderr, wrapped to its terminal; elsewhere one line each, for scripts.
 void print_warning(std::string_view text);
 
@@ -38,7 +41,7 @@ class Display {
 
  private:
   void warn(std::string_view stage, const std::vector<std::string>& warnings);
-  void progress(std::string_view stage, double fraction, std::string_view text);
+  void progress(std::string_view stage, Share share, std::string_view text);
   void done(std::string_view stage, double seconds);
 
   bool terminal_;

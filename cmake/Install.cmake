@@ -71,7 +71,7 @@ if(TARGET flowslide)
           DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/${zsh}" COMPONENT program)
   # Beside each other as in the checkout: the workflows name the fixtures by relative paths.
   install(DIRECTORY workflows DESTINATION "${CMAKE_INSTALL_DATADIR}/flowslide" COMPONENT program
-          FILES_MATCHING PATTERN "*.yaml" PATTERN engine EXCLUDE PATTERN stages EXCLUDE)
+          FILES_MATCHING PATTERN "*.yaml" PATTERN "*.csv" PATTERN engine EXCLUDE PATTERN stages EXCLUDE)
   install(DIRECTORY fixtures/opensees DESTINATION "${CMAKE_INSTALL_DATADIR}/flowslide/fixtures"
           COMPONENT program)
 endif()

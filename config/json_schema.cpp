@@ -43,13 +43,28 @@ Json quantity_schema(Dim dim, const Range& range) {
 
 Json text_schema() { return {{"type", "string"}, {"minLength", 1}}; }
 
-Json array_of(Json item) { return {{"type", "array"}, {"items", std::move(item)}}; }
+/// Lists and maps may be references too. What is said of items and properties, and what of text, do
+/// not disturb each other.
+Json list_or_map(std::string_view type) {
+  return {{"type", {type, "string"}}, {"pattern", fmt::format("^{}$", kReference)}};
+}
+
+Json array_of(Json item) {
+  Json schema = list_or_map("array");
+  schema["items"] = std::move(item);
+  return schema;
+}
 
 class JsonSchema final : public FieldVisitor {
  public:
   explicit JsonSchema(std::string_view doc) { open(doc); }
 
-  [[nodiscard]] Json take() { return close(); }
+  [[nodiscard]] Json take() {
+    Json schema = close();
+    schema["type"] = "object";
+    schema.erase("pattern");
+    return schema;
+  }
 
   void quantity(std::string_view key, double& value, Dim dim, Range range,
                 std::string_view doc) override {
@@ -112,12 +127,11 @@ class JsonSchema final : public FieldVisitor {
       cell["description"] = column.name;
       cells.push_back(std::move(cell));
     }
-    add(key,
-        array_of({{"type", "array"},
-                  {"prefixItems", std::move(cells)},
-                  {"minItems", columns.size()},
-                  {"maxItems", columns.size()}}),
-        doc);
+    Json row = list_or_map("array");
+    row["prefixItems"] = std::move(cells);
+    row["minItems"] = columns.size();
+    row["maxItems"] = columns.size();
+    add(key, array_of(std::move(row)), doc);
   }
 
  protected:
@@ -170,7 +184,9 @@ class JsonSchema final : public FieldVisitor {
   bool begin_entry(const std::string&) override { return begin_item(0); }
   void end_table() override {
     const Level table = pop();
-    add(table.key, {{"type", "object"}, {"additionalProperties", table.entry}}, table.doc);
+    Json schema = list_or_map("object");
+    schema["additionalProperties"] = table.entry;
+    add(table.key, std::move(schema), table.doc);
   }
 
  private:
@@ -195,7 +211,7 @@ class JsonSchema final : public FieldVisitor {
 
   Json close() {
     Level level = pop();
-    Json schema = {{"type", "object"}};
+    Json schema = list_or_map("object");
     if (!level.doc.empty()) schema["description"] = level.doc;
     schema["properties"] = std::move(level.properties);
     if (!level.required.empty()) schema["required"] = std::move(level.required);

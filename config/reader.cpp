@@ -95,6 +95,17 @@ class SettingsReader final : public FieldVisitor {
     items(key, values, doc, [&](const YamlNode& row) { return read_row(row, columns); });
   }
 
+  void moved(std::string_view key, std::string_view text, Moved what) override {
+    Frame& frame = frames_.back();
+    const auto node = frame.node ? frame.node->find(key) : std::nullopt;
+    if (!node || (what == Moved::list && node->kind() != YamlNode::Kind::list)) return;
+    frame.refused.emplace_back(key);
+    note(node->key_where().line,
+         fmt::format("{}: {}: '{}' is written as in an older version {}", node->key_where().text(),
+                     frame.path.empty() ? "the file" : frame.path, key, text));
+  }
+  void passed_over(std::string_view key) override { frames_.back().known.emplace_back(key); }
+
  protected:
   void choice_index(std::string_view key, int& index, std::span<const std::string_view> names,
                     std::string_view doc) override {
@@ -104,6 +115,10 @@ class SettingsReader final : public FieldVisitor {
   bool begin_group(std::string_view key, Presence presence, std::string_view) override {
     const auto node = take(key);
     Frame frame{.path = child_path(key)};
+    if (has(frames_.back().refused, key)) {
+      frames_.push_back(std::move(frame));
+      return false;
+    }
     if (presence == Presence::absent && node && node->kind() == YamlNode::Kind::null)
       note(*node,
            node->error("has no value (is it wanted or not?) remove the key, or write '{}' for its "
@@ -118,8 +133,7 @@ class SettingsReader final : public FieldVisitor {
     const Frame& frame = frames_.back();
     if (frame.visited && frame.node) {
       for (const auto& [key, value] : frame.node->entries())
-        if (std::find(frame.known.begin(), frame.known.end(), key) == frame.known.end())
-          note_unknown(key, value, frame);
+        if (!has(frame.known, key) && !has(frame.refused, key)) note_unknown(key, value, frame);
     }
     frames_.pop_back();
   }
@@ -188,7 +202,12 @@ class SettingsReader final : public FieldVisitor {
     bool visited = false;
     bool given = false;  ///< for lists and tables
     std::vector<std::string> known = {};
+    std::vector<std::string> refused = {};  ///< keys whose problem is noted
   };
+
+  static bool has(const std::vector<std::string>& keys, std::string_view key) {
+    return std::find(keys.begin(), keys.end(), key) != keys.end();
+  }
 
   static std::string example(Dim dim) {
     return dim == Dim::none ? "1" : fmt::format("1 {}", si_unit(dim));
@@ -210,7 +229,7 @@ class SettingsReader final : public FieldVisitor {
   std::optional<YamlNode> take(std::string_view key) {
     Frame& frame = frames_.back();
     frame.known.emplace_back(key);
-    return frame.node ? frame.node->find(key) : std::nullopt;
+    return frame.node && !has(frame.refused, key) ? frame.node->find(key) : std::nullopt;
   }
 
   /// Makes the frame one of a map; nothing given counts as an empty map.
@@ -235,7 +254,7 @@ class SettingsReader final : public FieldVisitor {
              std::string_view doc, Read read) {
     const auto node = take(key);
     if (!node) {
-      if (required) note_missing(key, example_text, doc);
+      if (required && !has(frames_.back().refused, key)) note_missing(key, example_text, doc);
       return;
     }
     try {

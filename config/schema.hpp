@@ -84,6 +84,14 @@ class FieldVisitor {
   virtual void rows(std::string_view key, std::vector<std::vector<double>>& values,
                     std::span<const Column> columns, std::string_view doc) = 0;
 
+  /// A key of an older version of the program: refused with `text`, "(why) what to write now".
+  /// With Moved::list the key lives on, but not as a list; before the field that it is now.
+  enum class Moved { key, list };
+  virtual void moved(std::string_view, std::string_view, Moved = Moved::key) {}
+  /// A setting of another stage, which a reference to all of that stage's settings brings along: it
+  /// may stand there and says nothing.
+  virtual void passed_over(std::string_view) {}
+
   /// An enumeration whose enumerators are 0, 1, 2, ... and are spelled as in `names`.
   template <class E, std::size_t N>
   requires std::is_enum_v<E>

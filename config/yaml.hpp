@@ -55,8 +55,8 @@ class YamlNode {
 /// empty document, tabs and text that is not UTF-8, nesting deeper than 64.
 /// `overrides` are "path.to.key=value" texts of --set; the value is parsed as YAML and may create
 /// keys that are absent, `null` removes the key, items of lists are numbered from 0 ("list.0.key").
-/// Afterwards a scalar that is exactly "${path.to.key}" is replaced by the
-/// scalar at that absolute path (no chains deeper than 8, a cycle is an error).
+/// Afterwards a scalar that is exactly "${path.to.key}" is replaced by what stands at that absolute
+/// path, a single value, a list or a map (no chains deeper than 8, a cycle is an error).
 /// Throws InputError with location, FileError.
 YamlNode load_yaml(const std::filesystem::path& path, std::span<const std::string> overrides = {});
 

@@ -37,7 +37,7 @@ struct YamlNode::Data {
   yaml::Place key_where;
   std::shared_ptr<const yaml::Path> path;  ///< null: the document itself
   std::string scalar;
-  std::string reference;  ///< "${path}" if the scalar was taken from there
+  std::string reference;  ///< "${path}" if the value was taken from there
   std::shared_ptr<const std::filesystem::path> folder;
   std::vector<std::shared_ptr<Data>> items;
   std::vector<std::pair<std::string, std::shared_ptr<Data>>> entries;
@@ -79,10 +79,20 @@ std::string clean_text(std::string_view bytes, const Source& source);
 /// Parses one document; `paths` are not set yet. Throws InputError.
 Tree parse(const std::string& text, const Source& source);
 
+/// Keys of "path.to.key"; is_path() tells whether all of them say something.
+std::vector<std::string> split_path(std::string_view path);
+bool is_path(const std::vector<std::string>& keys);
+/// The item a path names by its number; null if the text is no number or the list is shorter.
+Tree item(const YamlNode::Data& list, const std::string& key);
+/// Why a path does not go on at a list without that item, and at a single value.
+std::string no_item(std::string_view path, const YamlNode::Data& list, const std::string& key);
+std::string no_key(std::string_view path, const YamlNode::Data& scalar, const std::string& key);
+
 /// Applies one --set option. Throws InputError.
 void apply_override(const Tree& root, std::string_view option);
 
-/// Replaces scalars "${path}" by the scalar at the path. Throws InputError.
+/// Replaces scalars "${path}" by what stands at the path: a single value, a list or a map. Needs
+/// the paths, and sets those of what it copies. Throws InputError.
 void resolve_references(const Tree& root);
 
 /// Sets path and folder of every node.

@@ -1,11 +1,13 @@
 #pragma once
 #include "config/schema.hpp"
+#include "constitutive/admissible.hpp"
 #include "constitutive/concept.hpp"
 #include "constitutive/gap.hpp"
 #include "constitutive/shaking.hpp"
 #include "constitutive/softening.hpp"
 #include "core/elementary.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -135,6 +137,30 @@ struct DruckerPrager {
     const T scale = select(tau < tau_trial, tau / max(tau_trial, T(1e-300)), T(1.0));
     for (int i = 0; i < 3; ++i) r.stress[i] = (trial[i] - total_mean) * scale + p - u;
     for (int i = 3; i < kVoigt<Dim>; ++i) r.stress[i] = trial[i] * scale;
+    return r;
+  }
+
+  /// f / strength of the cone or of the cap, whichever is larger; as for Mohr-Coulomb.
+  static double violation(const Surface<double>& y, const Stress<2>& effective) {
+    const double p = mean_stress(effective), unconfined = std::max(y.k, 1.0);
+    const double confined = std::max(y.k - y.alpha * p, unconfined);
+    return std::max((std::sqrt(j2(effective)) + y.alpha * p - y.k) / confined,
+                    (p - y.tension) / unconfined);
+  }
+
+  /// The law's own return at zero strain increment, as for Mohr-Coulomb.
+  static AdmissibleStress admissible(const Constants& c, const State& s, const Stress<2>& total,
+                                     LiquefiedReturn) {
+    const Surface<double> y = surface(c, s);
+    Stress<2> effective = total;
+    for (int i = 0; i < 3; ++i) effective[i] += s.pore_pressure;
+    AdmissibleStress r{total, violation(y, effective)};
+    State dry = s;
+    dry.pore_pressure = 0.0;
+    const Stress<2> returned = update<2>(c, dry, effective, StrainIncrement<2>{}).stress;
+    r.after = violation(y, returned);
+    r.stress = returned;
+    for (int i = 0; i < 3; ++i) r.stress[i] -= s.pore_pressure;
     return r;
   }
 };

@@ -1,9 +1,11 @@
 #pragma once
+#include "constitutive/admissible.hpp"
 #include "constitutive/concept.hpp"
 #include "constitutive/gap.hpp"
 #include "constitutive/softening.hpp"
 #include "core/elementary.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 /// What the viscous fluids share: an equation of state for the pressure, and a deviator that is
@@ -79,6 +81,15 @@ template <int Dim, class T, class Relaxed>
   r.state.volume_ratio = j * exp_of_small(-opened);
   for (int i = 0; i < 3; ++i) r.stress[i] = s[i] * scale + p;
   for (int i = 3; i < kVoigt<Dim>; ++i) r.stress[i] = s[i] * scale;
+  return r;
+}
+
+/// A fluid carries any shear stress, at some rate, and mean tension up to `tension` [Pa].
+inline AdmissibleStress admissible_fluid(double tension, const Stress<2>& total) {
+  const double mean = mean_stress(total), excess = std::max(0.0, mean - tension);
+  const double strength = std::max(tension, 1.0);
+  AdmissibleStress r{total, (mean - tension) / strength, (mean - excess - tension) / strength};
+  for (int i = 0; i < 3; ++i) r.stress[i] -= excess;
   return r;
 }
 

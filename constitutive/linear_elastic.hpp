@@ -1,5 +1,6 @@
 #pragma once
 #include "config/schema.hpp"
+#include "constitutive/admissible.hpp"
 #include "constitutive/concept.hpp"
 #include "constitutive/shaking.hpp"
 
@@ -36,6 +37,10 @@ struct LinearElastic {
     return {hooke(c.elastic, sigma, de), {}};
   }
   static double present_strength(const Constants&, const State&) noexcept { return kUnset; }
+  static AdmissibleStress admissible(const Constants&, const State&, const Stress<2>& total,
+                                     LiquefiedReturn) {
+    return any_stress(total);
+  }
 };
 static_assert(ConstitutiveModel<LinearElastic, 2> && ConstitutiveModel<LinearElastic, 3>);
 

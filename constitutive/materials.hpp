@@ -31,6 +31,12 @@ using FlowLaws = Filtered<AllLaws, IsFlowLaw>;
 using AnyMaterial = FlowLaws::Variant<Material>;
 using MaterialSettings = LawSettings<FlowLaws>;
 
+/// A transfer asks every law of the runout what it can carry.
+template <class M>
+struct IsAdmitting : std::bool_constant<AdmitsStress<M>> {};
+static_assert(Filtered<FlowLaws, IsAdmitting>::size == FlowLaws::size,
+              "a law of the runout has no `admissible`");
+
 /// Laws of the shaking.
 template <class M>
 struct IsShakingLaw : std::bool_constant<ShakingModel<M>> {};

@@ -1,5 +1,6 @@
 #pragma once
 #include "config/schema.hpp"
+#include "constitutive/admissible.hpp"
 #include "constitutive/concept.hpp"
 #include "constitutive/gap.hpp"
 #include "core/elementary.hpp"
@@ -114,6 +115,27 @@ struct ModifiedCamClay {
       for (int i = 0; i < parts && done; ++i) done = advance<Dim>(c, part, r);
       if (done) return r;
     }
+    return r;
+  }
+
+  /// f / p_c^2 or how far p lies below its minimum, over p_c, whichever is larger.
+  static double violation(const Constants& c, double p, double q, double p_c) {
+    return std::max((q * q / c.m2 + p * (p - p_c)) / (p_c * p_c), (c.minimum - p) / p_c);
+  }
+
+  /// p within its bounds and the deviator scaled to the ellipse of the present p_c: what another
+  /// model knew of the soil does not harden it. Without p_c the law cannot tell.
+  static AdmissibleStress admissible(const Constants& c, const State& s, const Stress<2>& total,
+                                     LiquefiedReturn) {
+    if (!is_set(s.preconsolidation)) return any_stress(total);
+    const double p_c = std::max(s.preconsolidation, 2.0 * c.minimum), mean = mean_stress(total);
+    const double p_given = -(mean + s.pore_pressure), q = std::sqrt(3.0 * j2(total));
+    const double p = std::clamp(p_given, c.minimum, p_c);
+    const double most = std::sqrt(c.m2 * p * (p_c - p));
+    const double scale = q > most ? most / q : 1.0;
+    AdmissibleStress r{total, violation(c, p_given, q, p_c), violation(c, p, scale * q, p_c)};
+    for (int i = 0; i < 3; ++i) r.stress[i] = (total[i] - mean) * scale - p - s.pore_pressure;
+    r.stress[3] = total[3] * scale;
     return r;
   }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include "config/schema.hpp"
+#include "constitutive/admissible.hpp"
 #include "constitutive/concept.hpp"
 #include "constitutive/gap.hpp"
 #include "constitutive/mohr_coulomb_return.hpp"
@@ -8,6 +9,7 @@
 #include "constitutive/softening.hpp"
 #include "core/elementary.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace flowslide {
@@ -133,6 +135,37 @@ struct MohrCoulomb {
     const T u_new = present_pore_pressure(c.elastic.bulk, old.pore_pressure, r.state.gap);
     for (int i = 0; i < 3; ++i) returned[i] -= u_new;
     r.stress = returned;
+    return r;
+  }
+
+  /// f / strength of the shear part or of the tension limit, whichever is larger, of the stress
+  /// that friction acts on. The strength is that at the present confinement, at least that without
+  /// confinement and 1 Pa.
+  static double violation(const MohrCoulombSurface<double>& surface, const Stress<2>& stress) {
+    const double centre = 0.5 * (stress[0] + stress[1]);
+    const double radius = hypot(0.5 * (stress[0] - stress[1]), stress[3]);
+    const Sorted3<double> s = sort3(centre + radius, centre - radius, stress[2]);
+    const double unconfined = std::max(surface.sigma_c, 1.0);
+    const double confined = std::max(surface.sigma_c - surface.k * s.hi, unconfined);
+    return std::max((surface.k * s.hi - s.lo - surface.sigma_c) / confined,
+                    (s.hi - surface.tension) / unconfined);
+  }
+
+  /// The law's own return at zero strain increment, in effective stress: u is kept, while a step
+  /// would let it fall where soil opens.
+  static AdmissibleStress admissible(const Constants& c, const State& s, const Stress<2>& total,
+                                     LiquefiedReturn) {
+    const MohrCoulombSurface<double> y = surface(c, s);
+    Stress<2> effective = total;
+    for (int i = 0; i < 3; ++i) effective[i] += s.pore_pressure;
+    AdmissibleStress r{total, violation(y, effective)};
+    State dry = s;
+    dry.pore_pressure = 0.0;
+    r.stress = update<2>(c, dry, effective, StrainIncrement<2>{}).stress;
+    for (int i = 0; i < 3; ++i) r.stress[i] -= s.pore_pressure;
+    Stress<2> returned = r.stress;
+    for (int i = 0; i < 3; ++i) returned[i] += s.pore_pressure;
+    r.after = violation(y, returned);
     return r;
   }
 

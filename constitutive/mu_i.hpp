@@ -1,8 +1,10 @@
 #pragma once
 #include "config/schema.hpp"
+#include "constitutive/admissible.hpp"
 #include "constitutive/concept.hpp"
 #include "constitutive/gap.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace flowslide {
@@ -85,6 +87,21 @@ struct MuI {
     const T scale = select(tau < tau_trial, tau / max(tau_trial, T(1e-300)), T(1.0));
     for (int i = 0; i < 3; ++i) r.stress[i] = (trial[i] - total_mean) * scale - p - u;
     for (int i = 3; i < kVoigt<Dim>; ++i) r.stress[i] = trial[i] * scale;
+    return r;
+  }
+
+  /// No tension, and the deviator scaled to mu_2 p, which no rate exceeds: between mu_s and mu_2
+  /// the stress says how fast it flows.
+  static AdmissibleStress admissible(const Constants& c, const State& s, const Stress<2>& total,
+                                     LiquefiedReturn) {
+    const double mean = mean_stress(total), tau = std::sqrt(j2(total));
+    const double p_given = -(mean + s.pore_pressure), p = std::max(0.0, p_given);
+    const double most = c.mu_limit * p, strength = std::max(most, 1.0);
+    const double scale = tau > most ? most / tau : 1.0;
+    AdmissibleStress r{total, std::max(tau - most, p - p_given) / strength,
+                       (scale * tau - most) / strength};
+    for (int i = 0; i < 3; ++i) r.stress[i] = (total[i] - mean) * scale - p - s.pore_pressure;
+    r.stress[3] = total[3] * scale;
     return r;
   }
 };

@@ -1,5 +1,6 @@
 #pragma once
 #include "config/schema.hpp"
+#include "constitutive/admissible.hpp"
 #include "constitutive/concept.hpp"
 #include "constitutive/softening.hpp"
 
@@ -52,6 +53,10 @@ struct NeoHookean {
     return r;
   }
   static double present_strength(const Constants&, const State&) noexcept { return kUnset; }
+  static AdmissibleStress admissible(const Constants&, const State&, const Stress<2>& total,
+                                     LiquefiedReturn) {
+    return any_stress(total);
+  }
   /// At least rho c^2 of the fastest wave through the stretched material [Pa]: (K + 2 G)/J and the
   /// largest principal stress, bounded by the rows of the stress matrix.
   template <int Dim, class T>

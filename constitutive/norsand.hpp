@@ -1,5 +1,6 @@
 #pragma once
 #include "config/schema.hpp"
+#include "constitutive/admissible.hpp"
 #include "constitutive/concept.hpp"
 #include "constitutive/softening.hpp"
 #include "core/elementary.hpp"
@@ -87,6 +88,22 @@ struct NorSand {
     return r;
   }
 
+  /// p at least its minimum and the deviator scaled to the surface of the present image pressure.
+  /// Without void ratio and image pressure the law cannot tell.
+  static AdmissibleStress admissible(const Constants& c, const State& s, const Stress<2>& total,
+                                     LiquefiedReturn) {
+    if (!is_set(s.void_ratio) || !is_set(s.image_pressure)) return any_stress(total);
+    const double mean = mean_stress(total), q = std::sqrt(3.0 * j2(total));
+    const double p_given = -(mean + s.pore_pressure);
+    const double p = std::max(c.p.minimum_pressure, p_given), most = most_shear(c, s, p);
+    const double strength = std::max(most, 1.0), scale = q > most ? most / q : 1.0;
+    AdmissibleStress r{total, std::max(q - most, p - p_given) / strength,
+                       (scale * q - most) / strength};
+    for (int i = 0; i < 3; ++i) r.stress[i] = (total[i] - mean) * scale - p - s.pore_pressure;
+    r.stress[3] = total[3] * scale;
+    return r;
+  }
+
  private:
   static constexpr double kPart = 5e-5;  ///< strain of a part
 
@@ -106,16 +123,21 @@ struct NorSand {
     return k.dilatancy / (1.0 - k.csl_slope * k.dilatancy / k.critical_ratio);
   }
 
+  /// q on the surface at the pressure p [Pa].
+  static double most_shear(const Constants& c, const State& s, double p) noexcept {
+    const double image = s.image_pressure;
+    const double psi_image = state_parameter(c.p, s.void_ratio, image);
+    const double m = image_ratio(c.p, limiting_dilatancy(c.p), psi_image);
+    return std::max(0.0, p * m * (1.0 + log(image / p)));
+  }
+
   /// A stress beyond the surface, which only the start of a run can bring, loses what is too much
   /// of its deviator: flow along the surface from that far is ill-conditioned.
   template <int Dim>
   static void admit(const Constants& c, StressUpdate<State, Dim>& r) noexcept {
     const double mean = mean_stress(r.stress), q = std::sqrt(3.0 * j2(r.stress));
     const double p = std::max(c.p.minimum_pressure, -(mean + r.state.pore_pressure));
-    const double image = r.state.image_pressure;
-    const double psi_image = state_parameter(c.p, r.state.void_ratio, image);
-    const double m = image_ratio(c.p, limiting_dilatancy(c.p), psi_image);
-    const double most = std::max(0.0, p * m * (1.0 + log(image / p)));
+    const double most = most_shear(c, r.state, p);
     if (!(q > most)) return;
     const double scale = most / q;
     for (int i = 0; i < 3; ++i) r.stress[i] = (r.stress[i] - mean) * scale + mean;

@@ -6,6 +6,10 @@
 namespace flowslide {
 namespace {
 
+// Strain increments and tolerance that are left out; docs/theory/pm4sand.md, "Tolerance". Mixed
+// steps of a single point are solved to 1e-5 of its stress, and implicit steps iterate.
+constexpr double kPointPrecision = 1e-5, kMeshPrecision = 1e-4;
+
 /// OpenSees' interpolation, which follows the authors' FLAC code rather than their manual.
 double default_ce(double Dr) { return std::clamp(0.5 - 1.5 * (Dr - 0.55), 0.2, 0.5); }
 
@@ -24,32 +28,43 @@ PM4Sand::Constants PM4Sand::constants(const Params& p) {
            "index is then undefined) use a Q of about 10",
            p.Q);
   Constants c;
-  c.G0 = p.G0;
-  c.hpo = p.hpo;
-  c.P_atm = p.P_atm;
-  c.h0 = p.h0.value_or(std::max(0.3, 0.5 * (0.25 + p.Dr)));
-  c.emax = p.emax;
-  c.emin = p.emin;
-  c.initial_void_ratio = p.emax - (p.emax - p.emin) * p.Dr;
-  c.Dr = p.Dr;
+  c.G_unit = p.G0 * std::sqrt(p.P_atm);
+  c.bulk_ratio = 2.0 / 3.0 * (1.0 + p.nu) / (1.0 - 2.0 * p.nu);
+  c.pressure_ratio = c.bulk_ratio + 1.0 / 3.0;
+  c.Cgd = p.Cgd;
+  c.depth = p.Q - log(100.0 / p.P_atm);
+  c.R = p.R;
   c.nb = p.nb;
   c.nd = p.nd;
-  c.cz = p.cz;
-  c.ce = p.ce.value_or(default_ce(p.Dr));
   c.M = 2.0 * sin(p.phi_cv);
-  c.Cgd = p.Cgd;
-  c.Cdr = std::min(p.Cdr.value_or(5.0 + 25.0 * (p.Dr - 0.35)), 10.0);
-  c.Ckaf = std::clamp(p.Ckaf.value_or(default_Ckaf(p.Dr)), 4.0, 35.0);
-  c.Q = p.Q;
-  c.R = p.R;
   c.m = p.m;
+  c.h0 = p.h0.value_or(std::max(0.3, 0.5 * (0.25 + p.Dr)));
+  c.C_g1 = c.h0 / 200.0;
+  c.Ckaf = std::clamp(p.Ckaf.value_or(default_Ckaf(p.Dr)), 4.0, 35.0);
+  c.inverse_hpo = 1.0 / p.hpo;
+  c.ce2 = pow(p.ce.value_or(default_ce(p.Dr)), 2);
+  c.inverse_Cdr = 1.0 / std::min(p.Cdr.value_or(5.0 + 25.0 * (p.Dr - 0.35)), 10.0);
+  c.cz = p.cz;
+  c.emax = p.emax;
+  c.density_rate = 1.0 / (p.emax - p.emin);
+  c.initial_void_ratio = p.emax - (p.emax - p.emin) * p.Dr;
+  c.void_rate = 1.0 + c.initial_void_ratio;
+  c.P_atm = p.P_atm;
   c.Fsed_min = std::min(p.Fsed_min.value_or(0.03 * exp(2.6 * p.Dr)), 0.99);
   c.p_sedo = p.p_sedo.value_or(0.2 * p.P_atm);
-  c.bulk_ratio = 2.0 / 3.0 * (1.0 + p.nu) / (1.0 - 2.0 * p.nu);
+  c.Dr = p.Dr;
   c.Ado = p.Ado;
   c.z_max = p.z_max;
-  c.max_strain_increment = p.max_strain_increment;
-  c.tolerance = p.tolerance;
+  c.opensees_reversals = p.reversals == Reversals::opensees ? 1.0 : 0.0;
+  c.max_strain_increment = p.max_strain_increment.value_or(kPointPrecision);
+  c.tolerance = p.tolerance.value_or(kPointPrecision);
+  return c;
+}
+
+PM4Sand::Constants PM4Sand::mesh_constants(const Params& p) {
+  Constants c = constants(p);
+  c.max_strain_increment = p.max_strain_increment.value_or(kMeshPrecision);
+  c.tolerance = p.tolerance.value_or(kMeshPrecision);
   return c;
 }
 
@@ -63,7 +78,7 @@ Elasticity PM4Sand::gravity_elasticity(const Params& p, double poisson_ratio) {
 PM4Sand::State PM4Sand::initial_state(const Constants& c, const Stress<2>& sigma,
                                       double volumetric_strain) noexcept {
   using namespace pm4sand;
-  State s;
+  PM4Sand::State s;
   double p = -0.5 * (sigma[0] + sigma[1]);
   Deviator dev{-0.5 * (sigma[0] - sigma[1]), -sigma[3]};
   s.p_min = std::max(p, c.P_atm) / 200.0;
@@ -73,7 +88,7 @@ PM4Sand::State PM4Sand::initial_state(const Constants& c, const Stress<2>& sigma
     p = s.p_min;
     dev = {};
   }
-  const Surfaces f = surfaces(c, p, c.Dr);
+  const Surfaces<double> f = surfaces<double>(c, p, c.Dr);
   s.z_max = c.z_max.value_or(std::min(0.7 * exp(-6.1 * f.xi), 20.0));
   const double dense_A_do =
       f.Mb > 2.0 ? 1.5 : 2.5 * (asin(0.5 * f.Mb) - asin(0.5 * c.M)) / (f.Mb - f.Md);
@@ -90,18 +105,19 @@ PM4Sand::State PM4Sand::initial_state(const Constants& c, const Stress<2>& sigma
   s.alpha_true = s.alpha_max = s.alpha_min = s.alpha;
   s.z_peak = 1e-5 * s.z_max;
   s.p_zp = 0.01 * p;
-  s.void_ratio = c.initial_void_ratio - (1.0 + c.initial_void_ratio) * volumetric_strain;
+  s.void_ratio = c.initial_void_ratio - c.void_rate * volumetric_strain;
   return s;
 }
 
 Elasticity PM4Sand::elasticity(const Constants& c, const State& s,
                                const Stress<2>& sigma) noexcept {
   using namespace pm4sand;
-  const double p = -0.5 * (sigma[0] + sigma[1]) - s.held_p;
-  const Deviator dev = Deviator{-0.5 * (sigma[0] - sigma[1]), -sigma[3]} - s.held;
-  const Surfaces f = surfaces(c, std::max(p, s.p_min), relative_density(c, s.void_ratio));
-  const Moduli e = moduli(c, s, f, p, dev);
-  return {e.K, e.G};
+  const PointOf<double> at{-0.5 * (sigma[0] + sigma[1]) - s.held_p,
+                           Deviator{-0.5 * (sigma[0] - sigma[1]), -sigma[3]} - s.held,
+                           {},
+                           {}};
+  const double G = local<double>(c, s, stiffening<double>(c, s), at).G;
+  return {c.bulk_ratio * G, G};
 }
 
 void Schema<PM4Sand::Params>::describe(FieldVisitor& v, PM4Sand::Params& p) {
@@ -143,9 +159,14 @@ void Schema<PM4Sand::Params>::describe(FieldVisitor& v, PM4Sand::Params& p) {
   v.quantity("p_sedo", p.p_sedo, Dim::stress, positive,
              "mean stress up to which the modulus is lowered after shaking; left out: P_atm/5");
   v.quantity("max_strain_increment", p.max_strain_increment, Dim::none, {.min = 1e-8, .max = 1.0},
-             "largest strain component of a sub-step");
+             "largest strain component of a sub-step; left out: 1e-4 in explicit steps of a mesh, "
+             "else 1e-5");
+  v.choice("reversals", p.reversals, PM4Sand::reversals_names,
+           "what small cycles about a shear stress remember: the distance from the last reversal "
+           "until the one before is passed, or the rule as OpenSees has it");
   v.quantity("tolerance", p.tolerance, Dim::none, {.max = 1.0, .above = 0.0},
-             "stress error of a sub-step relative to the stress; larger errors halve the sub-step");
+             "stress error of a sub-step relative to the stress, which larger errors divide; left "
+             "out: as max_strain_increment");
 }
 
 }  // namespace flowslide

@@ -5,10 +5,70 @@
 #include "core/conventions.hpp"
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string_view>
 
 namespace flowslide {
+
+/// Numbers of PM4Sand; T is double, or as many as go through the same arithmetic (core/pack.hpp).
+namespace pm4sand {
+
+/// Symmetric, trace-free tensor in the plane: d = (xx - yy)/2, t = xy.
+template <class T>
+struct DeviatorOf {
+  T d = 0.0, t = 0.0;
+  bool operator==(const DeviatorOf&) const = default;
+};
+
+/// Everything a point remembers besides its stress; compression positive, Pa.
+template <class T>
+struct StateOf {
+  DeviatorOf<T> alpha;       ///< back-stress ratio
+  DeviatorOf<T> alpha_in;    ///< apparent initial back-stress ratio of this loading branch
+  DeviatorOf<T> alpha_in_p;  ///< back-stress ratio at the reversal before the last
+  DeviatorOf<T> alpha_true;  ///< back-stress ratio at the last reversal
+  DeviatorOf<T> alpha_max;   ///< largest negative initial ratio so far, by component
+  DeviatorOf<T> alpha_min;   ///< smallest positive one
+  DeviatorOf<T> z;           ///< fabric
+  DeviatorOf<T> z_in;        ///< fabric at the last reversal
+  DeviatorOf<T> held;        ///< deviator of the initial stress beyond the bounding surface
+  T held_p = 0.0;            ///< mean stress missing to p_min at the start
+  T z_cum = 0.0;             ///< accumulated fabric
+  T z_peak = 0.0;            ///< largest fabric so far
+  T z_xp = 0.0;              ///< largest |z| p at a reversal
+  T p_zp = 0.0;              ///< mean stress at that reversal
+  T reversed = 0.0;          ///< 1 after the first reversal
+  T p_min = 0.0;             ///< floor of mean stress in the moduli: max(p_0, P_atm)/200
+  T z_max = 0.0;             ///< limit of fabric
+  T A_do = 0.0;              ///< dilatancy coefficient
+  T void_ratio = 0.0;
+  bool operator==(const StateOf&) const = default;
+};
+
+/// What the rate equations know of a soil, with inverses and products so that they need not divide.
+/// Members without a comment are the parameters of their names.
+template <class T>
+struct SoilOf {
+  T G_unit;          ///< G_0 sqrt(P_atm): G at 1 Pa, before the other factors [Pa^(1/2)]
+  T bulk_ratio;      ///< K/G
+  T pressure_ratio;  ///< (K + G/3)/G
+  T Cgd;
+  T depth;  ///< Q - ln(100 Pa/P_atm)
+  T R, nb, nd, M, m, h0;
+  T C_g1;  ///< h_0/200
+  T Ckaf;
+  T inverse_hpo, inverse_Cdr;
+  T ce2;  ///< c_e^2
+  T cz, emax;
+  T density_rate;  ///< D_R = density_rate (emax - e)
+  T void_rate;     ///< de = -void_rate deps_v, 1 + e_init
+  T P_atm, Fsed_min, p_sedo, tolerance;
+  T opensees_reversals = 0.0;  ///< 1: small cycles remember what they do in OpenSees
+  T post_shake = 0.0;  ///< 1: softer elasticity while the soil settles; the caller sets it then
+};
+
+}  // namespace pm4sand
 
 /// PM4Sand 3.1 (Boulanger & Ziotopoulou 2017, UCD/CGM-17/01), a bounding-surface law for sand under
 /// cyclic loading in plane strain. Effective stress outside: tension positive, Pa. Inside the
@@ -17,6 +77,10 @@ namespace flowslide {
 struct PM4Sand {
   static constexpr std::string_view name = "pm4sand";
   static constexpr bool plane_mean_stress = true;  ///< sigma_zz is (xx + yy)/2
+
+  /// What small cycles about a shear stress remember: docs/theory/pm4sand.md, "Reversals".
+  enum class Reversals { published, opensees };
+  static constexpr std::array<std::string_view, 2> reversals_names{"published", "opensees"};
 
   /// Names and defaults of the OpenSees command; the density is the element's business.
   struct Params {
@@ -40,39 +104,14 @@ struct PM4Sand {
     double m = 0.01;                     ///< size of the yield surface
     std::optional<double> Fsed_min;      ///< unset: min(0.99, 0.03 exp(2.6 Dr))
     std::optional<double> p_sedo;        ///< [Pa]; unset: P_atm/5
-    double max_strain_increment = 1e-5;  ///< largest strain component of a sub-step
-    double tolerance = 1e-5;             ///< allowed stress error of a sub-step, relative
+    /// Largest strain component of a sub-step, and its allowed relative stress error. Unset: 1e-4
+    /// in explicit steps of a mesh, else 1e-5.
+    std::optional<double> max_strain_increment, tolerance;
+    Reversals reversals = Reversals::published;
   };
 
-  /// Symmetric, trace-free tensor in the plane: d = (xx - yy)/2, t = xy.
-  struct Deviator {
-    double d = 0.0, t = 0.0;
-    bool operator==(const Deviator&) const = default;
-  };
-
-  /// Everything a point remembers besides its stress; compression positive, Pa.
-  struct State {
-    Deviator alpha;         ///< back-stress ratio
-    Deviator alpha_in;      ///< apparent initial back-stress ratio of this loading branch
-    Deviator alpha_in_p;    ///< that of the previous branch
-    Deviator alpha_true;    ///< back-stress ratio at the last reversal
-    Deviator alpha_max;     ///< largest negative initial ratio so far, by component
-    Deviator alpha_min;     ///< smallest positive one
-    Deviator z;             ///< fabric
-    Deviator z_in;          ///< fabric at the last reversal
-    Deviator held;          ///< deviator of the initial stress beyond the bounding surface
-    double held_p = 0.0;    ///< mean stress missing to p_min at the start
-    double z_cum = 0.0;     ///< accumulated fabric
-    double z_peak = 0.0;    ///< largest fabric so far
-    double z_xp = 0.0;      ///< largest |z| p at a reversal
-    double p_zp = 0.0;      ///< mean stress at that reversal
-    double reversed = 0.0;  ///< 1 after the first reversal
-    double p_min = 0.0;     ///< floor of mean stress in the moduli: max(p_0, P_atm)/200
-    double z_max = 0.0;     ///< limit of fabric
-    double A_do = 0.0;      ///< dilatancy coefficient
-    double void_ratio = 0.0;
-    bool operator==(const State&) const = default;
-  };
+  using Deviator = pm4sand::DeviatorOf<double>;
+  using State = pm4sand::StateOf<double>;
   static constexpr std::array<std::string_view, 28> state_names{
       "alpha_d",      "alpha_t",      "alpha_in_d",  "alpha_in_t",  "alpha_in_p_d", "alpha_in_p_t",
       "alpha_true_d", "alpha_true_t", "alpha_max_d", "alpha_max_t", "alpha_min_d",  "alpha_min_t",
@@ -81,26 +120,25 @@ struct PM4Sand {
       "p_min",        "z_max",        "A_do",        "void_ratio"};
 
   /// Numbers derived once from the parameters.
-  struct Constants {
-    double G0, hpo, P_atm, h0, emax, emin, initial_void_ratio, Dr, nb, nd, cz, ce, M, Cgd, Cdr,
-        Ckaf, Q, R, m, Fsed_min, p_sedo;
-    double bulk_ratio;  ///< K/G
+  struct Constants : pm4sand::SoilOf<double> {
+    double Dr, initial_void_ratio, max_strain_increment;
     std::optional<double> Ado, z_max;
-    double max_strain_increment, tolerance;
-    /// Softer elasticity while the soil settles after shaking; the caller sets it then.
-    bool post_shake = false;
   };
 
-  struct Update {
-    Stress<2> stress;
-    State state;
+  struct Work {
     int sub_steps = 0;  ///< accepted sub-steps
     int rejected = 0;   ///< sub-steps repeated with a smaller size
     int floored = 0;    ///< sub-steps that ended below p_min/5 and were lifted
   };
+  struct Update : Work {
+    Stress<2> stress;
+    State state;
+  };
 
   /// Throws InputError for relations that ranges cannot express.
   static Constants constants(const Params& p);
+  /// For explicit steps of a mesh, whose sub-steps may be coarser.
+  static Constants mesh_constants(const Params& p);
 
   /// The elastic stage of gravity: Hooke's law with G = G0 P_atm at every pressure. The Poisson's
   /// ratio of that stage sets K_0 = nu/(1 - nu) and need not be the law's own.
@@ -124,6 +162,17 @@ struct PM4Sand {
   /// max_strain_increment does not change the result. NaN in, NaN out.
   [[nodiscard]] static Update update(const Constants& c, const State& old, const Stress<2>& sigma,
                                      const StrainIncrement<2>& de) noexcept;
+
+  /// A point that is to be updated in place.
+  struct Task {
+    const Constants* constants;
+    State* state;
+    Stress<2>* stress;
+    StrainIncrement<2> increment;
+  };
+  /// `update` of every point that `next` names, until it returns false: the same bits, in any
+  /// order, many points at a time. A point that is done makes room for the next one.
+  static Work update_all(const std::function<bool(Task&)>& next) noexcept;
 };
 static_assert(std::is_trivially_copyable_v<PM4Sand::State> &&
               sizeof(PM4Sand::State) == sizeof(double) * PM4Sand::state_names.size());

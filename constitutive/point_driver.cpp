@@ -16,6 +16,7 @@ constexpr std::array<int, 3> kComponent{0, 1, 3};
 constexpr int kMaxIterations = 60;
 /// gamma is a sum of many increments and misses round numbers by their rounding.
 constexpr double kSumSlack = 1e-6;
+constexpr int kMaxHalvings = 8;
 
 Eigen::Matrix3d elastic_matrix(const Elasticity& e) {
   const double a = e.bulk + 4.0 / 3.0 * e.shear, b = e.bulk - 2.0 / 3.0 * e.shear;
@@ -100,6 +101,41 @@ StrainIncrement<2> mixed_step(PointUnderTest& point, const std::array<Prescribed
   return de;
 }
 
+namespace {
+
+/// The first half of a step from the present stress.
+std::array<Prescribed, 3> first_half(const PointUnderTest& point, std::array<Prescribed, 3> step) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const bool strain = step[k].kind == Prescribed::Kind::strain;
+    step[k].value = 0.5 * (step[k].value + (strain ? 0.0 : point.stress[kComponent[k]]));
+  }
+  return step;
+}
+
+StrainIncrement<2> divided_step(PointUnderTest& point, const std::array<Prescribed, 3>& step,
+                                double tolerance, int halvings) {
+  try {
+    return mixed_step(point, step, tolerance);
+  } catch (const NumericsError&) {
+    if (halvings == kMaxHalvings) throw;
+  }
+  const std::array<Prescribed, 3> half = first_half(point, step);
+  StrainIncrement<2> de = divided_step(point, half, tolerance, halvings + 1);
+  std::array<Prescribed, 3> rest = step;
+  for (Prescribed& p : rest)
+    if (p.kind == Prescribed::Kind::strain) p.value *= 0.5;
+  const StrainIncrement<2> second = divided_step(point, rest, tolerance, halvings + 1);
+  for (int i = 0; i < 4; ++i) de[i] += second[i];
+  return de;
+}
+
+}  // namespace
+
+StrainIncrement<2> divided_step(PointUnderTest& point, const std::array<Prescribed, 3>& step,
+                                double tolerance) {
+  return divided_step(point, step, tolerance, 0);
+}
+
 ShearTest run_simple_shear(PointUnderTest& point, const SimpleShear& test) {
   validate(
       test.strain_step > 0.0 && test.stop_strain > 0.0,
@@ -118,8 +154,8 @@ ShearTest run_simple_shear(PointUnderTest& point, const SimpleShear& test) {
   while (now.half_cycles < test.max_half_cycles) {
     const double d_gamma = direction * test.strain_step;
     const auto normal = test.drained ? Prescribed::stress_value(vertical) : Prescribed{};
-    const StrainIncrement<2> de =
-        mixed_step(point, {Prescribed{}, normal, Prescribed::strain_increment(d_gamma)}, tolerance);
+    const StrainIncrement<2> de = divided_step(
+        point, {Prescribed{}, normal, Prescribed::strain_increment(d_gamma)}, tolerance);
     now.gamma += d_gamma;
     now.eps_yy += de[1];
     now.sigma_xx = point.stress[0];

@@ -58,6 +58,12 @@ struct Prescribed {
 StrainIncrement<2> mixed_step(PointUnderTest& point, const std::array<Prescribed, 3>& step,
                               double tolerance);
 
+/// As mixed_step, but a step that fails is taken in two halves, and those again, down to a 256th:
+/// near a reversal the law is far stiffer on one side than on the other, and Newton's method may
+/// circle. After a NumericsError the point stands where the last part left it.
+StrainIncrement<2> divided_step(PointUnderTest& point, const std::array<Prescribed, 3>& step,
+                                double tolerance);
+
 /// Direct simple shear from a consolidated stress: undrained at constant volume (both normal
 /// strains zero), drained at constant vertical stress and no lateral strain.
 struct SimpleShear {

@@ -151,7 +151,7 @@ void run_path(PointUnderTest& point, const PointConfig& config, PointReport& rep
           part(leg.strain_yy, leg.stress_yy, s[1], left, leg.steps),
           part(leg.gamma_xy, leg.tau_xy, s[3], left, leg.steps)};
       try {
-        const StrainIncrement<2> de = mixed_step(point, wish, 1e-5 * config.stress.vertical);
+        const StrainIncrement<2> de = divided_step(point, wish, 1e-5 * config.stress.vertical);
         row.eps_xx += de[0];
         row.eps_yy += de[1];
         row.gamma += de[3];

@@ -1,9 +1,11 @@
 #pragma once
 #include "config/schema.hpp"
+#include "constitutive/admissible.hpp"
 #include "constitutive/concept.hpp"
 #include "constitutive/gap.hpp"
 #include "constitutive/softening.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace flowslide {
@@ -94,6 +96,45 @@ struct ResidualStrength {
     r.state.plastic_strain = old.plastic_strain + over * (1.0 / (std::sqrt(3.0) * c.elastic.shear));
     r.state.gap = step.gap + excess * (1.0 / c.elastic.bulk);
     return r;
+  }
+
+  /// (sqrt(J2) - s) / s or (p - tension cut-off) / s, whichever is larger.
+  static double violation(double strength, double tension_cutoff, const Stress<2>& stress) {
+    return std::max(std::sqrt(j2(stress)) - strength, mean_stress(stress) - tension_cutoff) /
+           std::max(strength, 1.0);
+  }
+
+  /// The deviator is scaled by a <= 1 until sqrt(J2) <= strength, and the mean stress p follows:
+  /// `vertical_stress` keeps the total sigma_yy, which carries the overburden (p = sigma_yy -
+  /// a s_yy), `mean_stress` keeps p. Neither leaves p above the tension cut-off.
+  static Stress<2> brought_back(LiquefiedReturn keeps, double strength, double tension_cutoff,
+                                const Stress<2>& total) {
+    if (keeps == LiquefiedReturn::none) return total;
+    const double p = mean_stress(total);
+    const double shear = std::sqrt(j2(total));
+    double scale = shear > strength ? strength / shear : 1.0;
+    double mean = std::min(p, tension_cutoff);
+    if (keeps == LiquefiedReturn::vertical_stress) {
+      const double s_yy = total[1] - p;
+      mean = total[1] - scale * s_yy;
+      if (mean > tension_cutoff) {
+        // Less deviator keeps sigma_yy, unless sigma_yy itself is beyond the cut-off.
+        scale = s_yy < 0.0 && total[1] < tension_cutoff ? (total[1] - tension_cutoff) / s_yy : 0.0;
+        mean = std::min(total[1] - scale * s_yy, tension_cutoff);
+      }
+    }
+    Stress<2> returned;
+    for (int i = 0; i < 3; ++i) returned[i] = mean + scale * (total[i] - p);
+    returned[3] = scale * total[3];
+    return returned;
+  }
+
+  static AdmissibleStress admissible(const Constants& c, const State& s, const Stress<2>& total,
+                                     LiquefiedReturn keeps) {
+    const double strength = present_strength(c, s);
+    const Stress<2> returned = brought_back(keeps, strength, c.tension_cutoff, total);
+    return {returned, violation(strength, c.tension_cutoff, total),
+            violation(strength, c.tension_cutoff, returned)};
   }
 };
 static_assert(ConstitutiveModel<ResidualStrength, 2> && ConstitutiveModel<ResidualStrength, 3>);

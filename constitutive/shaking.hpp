@@ -31,6 +31,15 @@ typename M::Constants shaking_constants(const typename M::Params& p) {
     return M::constants(p, 1.0);
 }
 
+/// The same for explicit steps of a mesh.
+template <class M>
+typename M::Constants mesh_constants(const typename M::Params& p) {
+  if constexpr (requires { M::mesh_constants(p); })
+    return M::mesh_constants(p);
+  else
+    return shaking_constants<M>(p);
+}
+
 /// Elastic constants of the stage of gravity, whose Poisson's ratio sets K_0 = nu/(1 - nu) and need
 /// not be the law's own.
 template <class M>

@@ -37,6 +37,11 @@ struct NewtonianFluid {
   static State initial_state(const Params&) { return {}; }
   static double present_strength(const Constants&, const State&) noexcept { return 0.0; }
 
+  static AdmissibleStress admissible(const Constants& c, const State&, const Stress<2>& total,
+                                     LiquefiedReturn) {
+    return admissible_fluid(c.tension_cutoff, total);
+  }
+
   template <int Dim, class T>
   [[nodiscard]] static StressUpdate<StateOf<T>, Dim, T> update(const Constants& c,
                                                                const StateOf<T>& old,
@@ -85,6 +90,11 @@ struct Bingham {
   static State initial_state(const Params&) { return {}; }
   static double present_strength(const Constants& c, const State&) noexcept {
     return c.yield_stress;
+  }
+
+  static AdmissibleStress admissible(const Constants& c, const State&, const Stress<2>& total,
+                                     LiquefiedReturn) {
+    return admissible_fluid(c.tension_cutoff, total);
   }
 
   template <int Dim, class T>
@@ -153,6 +163,11 @@ struct HerschelBulkley {
       y = next > low && next < high ? next : 0.5 * (low + high);
     }
     return y;
+  }
+
+  static AdmissibleStress admissible(const Constants& c, const State&, const Stress<2>& total,
+                                     LiquefiedReturn) {
+    return admissible_fluid(c.tension_cutoff, total);
   }
 
   template <int Dim, class T>

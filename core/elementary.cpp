@@ -1,24 +1,14 @@
 #include "core/elementary.hpp"
 
-#include <array>
-#include <bit>
+#include "core/elementary_lanes.hpp"
+
 #include <cmath>
-#include <cstdint>
-#include <limits>
 
 namespace flowslide {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kSmallestNormal = 0x1p-1022;
-// ln 2 in two parts; the first has 32 bits, so that its products with exponents are exact.
-constexpr double kLn2High = 0x1.62e42feep-1, kLn2Low = 0x1.a39ef35793c76p-33;
-
-/// A number as the sum of two, the second at most half a unit in the last place of the first.
-struct Two {
-  double high, low;
-};
+using namespace elementary;
+using Two = TwoParts;
 
 /// a + b exactly (Knuth).
 constexpr Two sum(double a, double b) {
@@ -43,68 +33,6 @@ constexpr Two product(double a, double b) {
 /// 2^n for -1022 <= n <= 1023.
 double power_of_two(int n) {
   return std::bit_cast<double>(static_cast<std::uint64_t>(n + 1023) << 52);
-}
-
-/// Parts of a power of two into which exp divides its argument.
-constexpr int kSteps = 64;
-
-/// 2^(i/kSteps) in two parts, by the exponential series and exact sums at compile time.
-constexpr std::array<Two, kSteps> kRoots = [] {
-  std::array<Two, kSteps> roots{};
-  for (int i = 0; i < kSteps; ++i) {
-    const double share = static_cast<double>(i) / kSteps;
-    const Two x = quick_sum(share * kLn2High, share * kLn2Low);  // exact products
-    Two term{1.0, 0.0}, total{1.0, 0.0};
-    for (int k = 1; k < 30; ++k) {
-      Two next = product(term.high, x.high);
-      next.low += term.high * x.low + term.low * x.high;
-      const double quotient = next.high / k;
-      const Two back = product(quotient, k);
-      term = quick_sum(quotient, (((next.high - back.high) - back.low) + next.low) / k);
-      const Two s = sum(total.high, term.high);
-      total = quick_sum(s.high, s.low + total.low + term.low);
-    }
-    roots[static_cast<std::size_t>(i)] = total;
-  }
-  return roots;
-}();
-
-/// e^(x + c) for a c that is small against x.
-double exp_of_sum(double x, double c) noexcept {
-  constexpr double kStepsOverLn2 = kSteps * 0x1.71547652b82fep+0, kRound = 0x1.8p52;
-  constexpr double kHighest = 709.79, kLowest = -745.2, kPlain = 708.0;
-  if (!(x < kPlain && x > -kPlain)) {
-    if (x > kHighest) return kInfinity;
-    if (x < kLowest) return 0.0;
-    if (std::isnan(x)) return x;
-  }
-  // x = n ln 2/kSteps + r, |r| < 0.0055
-  const double n = (x * kStepsOverLn2 + kRound) - kRound;
-  const double high = x - n * (kLn2High / kSteps), low = n * (kLn2Low / kSteps) - c;
-  const double r = high - low, r2 = r * r;
-  const double series =
-      r + r2 * ((0.5 + r * (1.0 / 6)) + r2 * ((1.0 / 24 + r * (1.0 / 120)) + r2 * (1.0 / 720)));
-  const int whole = static_cast<int>(n), step = whole & (kSteps - 1);
-  const int exponent = (whole - step) / kSteps;
-  const Two root = kRoots[static_cast<std::size_t>(step)];
-  const double rest = root.low + root.high * series;
-  if (x < kPlain && x > -kPlain) return (root.high + rest) * power_of_two(exponent);
-  const int half = exponent / 2;
-  return (root.high + rest) * power_of_two(half) * power_of_two(exponent - half);
-}
-
-/// x = 2^exponent m with m between sqrt(1/2) and sqrt(2), for x > 0.
-struct Parts {
-  double m, exponent;
-};
-Parts parts(double x) {
-  constexpr std::uint64_t kRootHalf = 0x3fe6a09e667f3bcd;  // bits of sqrt(1/2)
-  double shift = 0.0;
-  if (x < kSmallestNormal) x *= 0x1p54, shift = -54.0;
-  const auto bits = std::bit_cast<std::uint64_t>(x);
-  const auto n = static_cast<std::int64_t>(bits - kRootHalf) >> 52;
-  return {std::bit_cast<double>(bits - (static_cast<std::uint64_t>(n) << 52)),
-          static_cast<double>(n) + shift};
 }
 
 /// log(x) to 100 bits or more, for 0 < x < infinity.
@@ -209,19 +137,47 @@ Two atan_of_ratio(double n, double d) {
 
 }  // namespace
 
+namespace elementary {
+
+// By the exponential series and exact sums at compile time.
+constinit const std::array<TwoParts, kSteps> kRoots = [] {
+  std::array<Two, kSteps> roots{};
+  for (int i = 0; i < kSteps; ++i) {
+    const double share = static_cast<double>(i) / kSteps;
+    const Two x = quick_sum(share * kLn2High, share * kLn2Low);  // exact products
+    Two term{1.0, 0.0}, total{1.0, 0.0};
+    for (int k = 1; k < 30; ++k) {
+      Two next = product(term.high, x.high);
+      next.low += term.high * x.low + term.low * x.high;
+      const double quotient = next.high / k;
+      const Two back = product(quotient, k);
+      term = quick_sum(quotient, (((next.high - back.high) - back.low) + next.low) / k);
+      const Two s = sum(total.high, term.high);
+      total = quick_sum(s.high, s.low + total.low + term.low);
+    }
+    roots[static_cast<std::size_t>(i)] = total;
+  }
+  return roots;
+}();
+
+double exp_far(double x, double c) noexcept {
+  constexpr double kHighest = 709.79, kLowest = -745.2;
+  if (x > kHighest) return kInfinity;
+  if (x < kLowest) return 0.0;
+  if (std::isnan(x)) return x;
+  const Scaled<double> s = scaled_exp(x, c);
+  const int exponent = static_cast<int>(static_cast<std::int64_t>(s.n << 13) >> 13) / kSteps;
+  const int half = exponent / 2;
+  return s.m * power_of_two(half) * power_of_two(exponent - half);
+}
+
+}  // namespace elementary
+
 double exp(double x) noexcept { return exp_of_sum(x, 0.0); }
 
 double log(double x) noexcept {
   if (!(x > 0.0 && x < kInfinity)) return x == 0.0 ? -kInfinity : x > 0.0 ? x : kNan;
-  const auto [m, n] = parts(x);
-  // As in log_in_two; the first term is f - f^2/2 + ..., whose f = m - 1 is exact.
-  const double f = m - 1.0, s = f / (2.0 + f);
-  const double z = s * s, z2 = z * z, z4 = z2 * z2;
-  const double a = (2.0 / 3 + z * (2.0 / 5)) + z2 * (2.0 / 7 + z * (2.0 / 9));
-  const double b = (2.0 / 11 + z * (2.0 / 13)) + z2 * (2.0 / 15 + z * (2.0 / 17));
-  const double c = (2.0 / 19 + z * (2.0 / 21)) + z2 * (2.0 / 23);
-  const double series = z * (a + z4 * (b + z4 * c)), half_square = 0.5 * f * f;
-  return n * kLn2High - ((half_square - (s * (half_square + series) + n * kLn2Low)) - f);
+  return log_inside(x);
 }
 
 double pow(double x, double y) noexcept {

@@ -86,6 +86,11 @@ Descriptor open_regular(const fs::path& path) {
 }  // namespace
 
 fs::path temporary_name(const fs::path& path) {
+  // A name that is none must not match those of other files, which are no leftovers.
+  if (path.filename().empty())
+    throw FileError(fmt::format(
+        "'{}' names no file (it is empty or ends with a slash) give the name of a file",
+        path.string()));
   // Where the folder cannot be listed it may still be written.
   remove_leftovers(folder_of(path), path.filename().string());
   std::uint64_t number = 0;

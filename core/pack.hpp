@@ -7,8 +7,8 @@
 #include <immintrin.h>
 #endif
 
-/// Doubles that go through the same arithmetic, as many as one register of the target holds, on
-/// GCC's and Clang's vector extension. Formulas written as templates over a number type T run on
+/// Doubles that go through the same arithmetic, `Pack` as many as one register of the target holds,
+/// on GCC's and Clang's vector extension. Formulas written as templates over a number type T run on
 /// double and on Pack; `select` takes the place of branches.
 namespace flowslide {
 
@@ -20,88 +20,141 @@ inline constexpr int kPackLanes = 4;
 inline constexpr int kPackLanes = 2;
 #endif
 
-struct Pack {
-  static constexpr int lanes = kPackLanes;
-  using Vector = double __attribute__((vector_size(sizeof(double) * kPackLanes)));
+/// Vectors of N doubles, and of whole numbers of their size. One by one, since g++ forgets a size
+/// that hangs on a template parameter.
+template <int N>
+struct VectorOf;
+template <>
+struct VectorOf<2> {
+  using Real = double __attribute__((vector_size(16)));
+  using Whole = std::int64_t __attribute__((vector_size(16)));
+  using Bits = std::uint64_t __attribute__((vector_size(16)));
+};
+template <>
+struct VectorOf<4> {
+  using Real = double __attribute__((vector_size(32)));
+  using Whole = std::int64_t __attribute__((vector_size(32)));
+  using Bits = std::uint64_t __attribute__((vector_size(32)));
+};
+template <>
+struct VectorOf<8> {
+  using Real = double __attribute__((vector_size(64)));
+  using Whole = std::int64_t __attribute__((vector_size(64)));
+  using Bits = std::uint64_t __attribute__((vector_size(64)));
+};
+
+template <int N>
+struct PackOf;
+
+/// Truth values of the lanes of a PackOf<N>.
+template <int N>
+struct MaskOf {
+  using Vector = typename VectorOf<N>::Whole;
+  Vector m;
+  friend MaskOf operator&&(MaskOf a, MaskOf b) { return {a.m & b.m}; }
+  friend MaskOf operator||(MaskOf a, MaskOf b) { return {a.m | b.m}; }
+  friend MaskOf operator!(MaskOf a) { return {~a.m}; }
+  friend PackOf<N> select(MaskOf c, PackOf<N> a, PackOf<N> b) {
+    return PackOf<N>(c.m ? a.v : b.v);
+  }
+};
+
+/// N doubles. Results do not hang on N: solvers take `Pack`, tests compare widths.
+template <int N>
+struct PackOf {
+  static constexpr int lanes = N;
+  using Vector = typename VectorOf<N>::Real;
   Vector v;
 
-  Pack() = default;
-  Pack(double x) : v(x - Vector{}) {}
-  explicit Pack(Vector x) : v(x) {}
+  PackOf() = default;
+  PackOf(double x) : v(x - Vector{}) {}
+  explicit PackOf(Vector x) : v(x) {}
   double operator[](int i) const { return v[i]; }
 
-  friend Pack operator+(Pack a, Pack b) { return Pack(a.v + b.v); }
-  friend Pack operator-(Pack a, Pack b) { return Pack(a.v - b.v); }
-  friend Pack operator*(Pack a, Pack b) { return Pack(a.v * b.v); }
-  friend Pack operator/(Pack a, Pack b) { return Pack(a.v / b.v); }
-  friend Pack operator-(Pack a) { return Pack(-a.v); }
-  Pack& operator+=(Pack b) { return *this = *this + b; }
-  Pack& operator-=(Pack b) { return *this = *this - b; }
-  Pack& operator*=(Pack b) { return *this = *this * b; }
-};
+  friend PackOf operator+(PackOf a, PackOf b) { return PackOf(a.v + b.v); }
+  friend PackOf operator-(PackOf a, PackOf b) { return PackOf(a.v - b.v); }
+  friend PackOf operator*(PackOf a, PackOf b) { return PackOf(a.v * b.v); }
+  friend PackOf operator/(PackOf a, PackOf b) { return PackOf(a.v / b.v); }
+  friend PackOf operator-(PackOf a) { return PackOf(-a.v); }
+  PackOf& operator+=(PackOf b) { return *this = *this + b; }
+  PackOf& operator-=(PackOf b) { return *this = *this - b; }
+  PackOf& operator*=(PackOf b) { return *this = *this * b; }
 
-/// Truth values of the lanes of a Pack.
-struct PackMask {
-  using Vector = std::int64_t __attribute__((vector_size(sizeof(double) * kPackLanes)));
-  Vector m;
-  friend PackMask operator&&(PackMask a, PackMask b) { return {a.m & b.m}; }
-  friend PackMask operator||(PackMask a, PackMask b) { return {a.m | b.m}; }
-};
+  friend MaskOf<N> operator<(PackOf a, PackOf b) { return {a.v < b.v}; }
+  friend MaskOf<N> operator>(PackOf a, PackOf b) { return {a.v > b.v}; }
+  friend MaskOf<N> operator<=(PackOf a, PackOf b) { return {a.v <= b.v}; }
+  friend MaskOf<N> operator>=(PackOf a, PackOf b) { return {a.v >= b.v}; }
 
-inline PackMask operator<(Pack a, Pack b) { return {a.v < b.v}; }
-inline PackMask operator>(Pack a, Pack b) { return {a.v > b.v}; }
-inline PackMask operator<=(Pack a, Pack b) { return {a.v <= b.v}; }
-inline PackMask operator>=(Pack a, Pack b) { return {a.v >= b.v}; }
-
-/// True in every lane.
-inline bool all(PackMask c) {
-#if defined(__AVX512DQ__)
-  return _mm512_movepi64_mask(__m512i(c.m)) == 0xff;
-#else
-  bool r = true;
-  for (int i = 0; i < kPackLanes; ++i) r = r && c.m[i] != 0;
-  return r;
+  friend PackOf min(PackOf a, PackOf b) { return select(b < a, b, a); }
+  friend PackOf max(PackOf a, PackOf b) { return select(a < b, b, a); }
+  friend PackOf abs(PackOf a) {
+    using Whole = typename VectorOf<N>::Whole;
+    return PackOf(Vector(Whole(a.v) & (INT64_MAX - Whole{})));
+  }
+  // The vector extension has no square root, and a loop over lanes goes through memory.
+  friend PackOf sqrt(PackOf a) {
+#if defined(__AVX512F__)
+    if constexpr (N == 8)
+      return PackOf(Vector(_mm512_mask_sqrt_pd(_mm512_setzero_pd(), 0xff, __m512d(a.v))));
 #endif
+#if defined(__AVX__)
+    if constexpr (N == 4) return PackOf(Vector(_mm256_sqrt_pd(__m256d(a.v))));
+#endif
+    for (int i = 0; i < N; ++i) a.v[i] = std::sqrt(a.v[i]);
+    return a;
+  }
+  friend PackOf floor(PackOf a) {
+#if defined(__AVX512F__)
+    if constexpr (N == 8)
+      return PackOf(
+          Vector(_mm512_mask_roundscale_pd(_mm512_setzero_pd(), 0xff, __m512d(a.v), 0x01)));
+#endif
+#if defined(__AVX__)
+    if constexpr (N == 4) return PackOf(Vector(_mm256_floor_pd(__m256d(a.v))));
+#endif
+    for (int i = 0; i < N; ++i) a.v[i] = std::floor(a.v[i]);
+    return a;
+  }
+  // The processor's estimates with Newton's steps would be cheaper, but estimates differ between
+  // processors; roots and divisions are exact on all.
+  friend PackOf inverse_sqrt(PackOf a) { return 1.0 / sqrt(a); }
+  friend PackOf reciprocal(PackOf a) { return 1.0 / a; }
+};
+using Pack = PackOf<kPackLanes>;
+using PackMask = MaskOf<kPackLanes>;
+
+/// The lanes where the mask is true, lane 0 as the lowest bit.
+template <int N>
+unsigned bits(MaskOf<N> c) {
+#if defined(__AVX512DQ__)
+  if constexpr (N == 8) return _mm512_movepi64_mask(__m512i(c.m));
+#endif
+#if defined(__AVX__)
+  if constexpr (N == 4) return _mm256_movemask_pd(__m256d(c.m));
+#endif
+  unsigned r = 0;
+  for (int i = 0; i < N; ++i) r |= (c.m[i] != 0 ? 1u : 0u) << i;
+  return r;
+}
+inline unsigned bits(bool c) { return c ? 1u : 0u; }
+
+/// True in every lane, or in any.
+template <int N>
+bool all(MaskOf<N> c) {
+  return bits(c) == (1u << N) - 1u;
 }
 inline bool all(bool c) { return c; }
+template <int N>
+bool any(MaskOf<N> c) {
+  return bits(c) != 0;
+}
+inline bool any(bool c) { return c; }
 
-inline Pack select(PackMask c, Pack a, Pack b) { return Pack(c.m ? a.v : b.v); }
 inline double select(bool c, double a, double b) { return c ? a : b; }
-
-inline Pack min(Pack a, Pack b) { return select(b < a, b, a); }
-inline Pack max(Pack a, Pack b) { return select(a < b, b, a); }
 inline double min(double a, double b) { return b < a ? b : a; }
 inline double max(double a, double b) { return a < b ? b : a; }
-
-// The vector extension has no square root, and a loop over lanes goes through memory.
-inline Pack sqrt(Pack a) {
-#if defined(__AVX512F__)
-  return Pack(Pack::Vector(_mm512_mask_sqrt_pd(_mm512_setzero_pd(), 0xff, __m512d(a.v))));
-#elif defined(__AVX__)
-  return Pack(Pack::Vector(_mm256_sqrt_pd(__m256d(a.v))));
-#else
-  Pack r;
-  for (int i = 0; i < Pack::lanes; ++i) r.v[i] = std::sqrt(a.v[i]);
-  return r;
-#endif
-}
-inline Pack floor(Pack a) {
-#if defined(__AVX512F__)
-  return Pack(
-      Pack::Vector(_mm512_mask_roundscale_pd(_mm512_setzero_pd(), 0xff, __m512d(a.v), 0x01)));
-#elif defined(__AVX__)
-  return Pack(Pack::Vector(_mm256_floor_pd(__m256d(a.v))));
-#else
-  Pack r;
-  for (int i = 0; i < Pack::lanes; ++i) r.v[i] = std::floor(a.v[i]);
-  return r;
-#endif
-}
-// The processor's estimates with Newton's steps would be cheaper, but estimates differ between
-// processors; roots and divisions are exact on all.
-inline Pack inverse_sqrt(Pack a) { return 1.0 / sqrt(a); }
+inline double abs(double a) { return std::abs(a); }
 inline double inverse_sqrt(double a) { return 1.0 / std::sqrt(a); }
-inline Pack reciprocal(Pack a) { return 1.0 / a; }
 inline double reciprocal(double a) { return 1.0 / a; }
 inline double sqrt(double a) { return std::sqrt(a); }
 inline double floor(double a) { return std::floor(a); }
@@ -147,8 +200,8 @@ inline double max_lanes(Pack x) {
 /// Points that go through one operation on a T, and access to them as above.
 template <class T>
 inline constexpr int kLanes = 1;
-template <>
-inline constexpr int kLanes<Pack> = Pack::lanes;
+template <int N>
+inline constexpr int kLanes<PackOf<N>> = N;
 template <class T>
 T load_lanes(const double* from, int) {
   return *from;

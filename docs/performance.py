@@ -128,6 +128,21 @@ def curve_table(lines_of):
     return "\n".join(rows)
 
 
+def front_table(rows):
+    lines_of = {}
+    for r in rows:
+        _, _, transfer, cells = r["name"].split("/")
+        lines_of.setdefault(transfer, {})[int(cells)] = r
+    cells = sorted(next(iter(lines_of.values())))
+    lines = ["| transfer | " + " | ".join(f"1/{c}" for c in cells) + " |", "|---" * (len(cells) + 1) + "|"]
+    for transfer, by_cell in lines_of.items():
+        entries = [
+            f"{100 * by_cell[c]['value']:.0f} % / {by_cell[c]['core_seconds']:.2g} s" for c in cells
+        ]
+        lines.append(f"| {transfer} | " + " | ".join(entries) + " |")
+    return "\n".join(lines)
+
+
 def draw(lines_of, path):
     bases = list(dict.fromkeys(name.split("/")[0] for name in lines_of))
     figure, axes = plt.subplots(1, len(bases), figsize=(3.2 * len(bases), 3.4), sharey=True)
@@ -178,6 +193,9 @@ def main():
     if curves:
         text = replace(text, "curves", curve_table(curves))
         draw(curves, DOCS / "images" / "work-precision.png")
+    front = [m for m in mpm if m["name"].startswith("mpm/front/")]
+    if front:
+        text = replace(text, "front", front_table(front))
     valley = [m for m in mpm if m["name"].startswith("mpm/3d/valley/")]
     if valley:
         text = replace(text, "valley", valley_table(valley))

@@ -20,14 +20,18 @@ Material make_material(const std::string& name, const FemMaterialConfig& c) {
   return m;
 }
 
+const FemMaterialConfig& settings_of(const MaterialName& m, const FemConfig& config) {
+  const auto at = config.materials.find(m.name);
+  validate(at != config.materials.end(),
+           "the mesh has a material {} (tag {}) that materials does not describe", m.name, m.tag);
+  return at->second;
+}
+
 void set_materials(Model& r, const SectionMesh& section, const FemConfig& config) {
   std::map<std::int32_t, std::int32_t> index;
   for (const MaterialName& m : section.materials) {
-    const auto at = config.materials.find(m.name);
-    validate(at != config.materials.end(),
-             "the mesh has a material {} (tag {}) that materials does not describe", m.name, m.tag);
     index[m.tag] = static_cast<std::int32_t>(r.materials.size());
-    r.materials.push_back(make_material(m.name, at->second));
+    r.materials.push_back(make_material(m.name, settings_of(m, config)));
   }
   for (const auto& [name, unused] : config.materials) (void)material_tag(section, name);
   r.material.reserve(r.mesh.num_elements());
@@ -198,7 +202,57 @@ void set_water(Model& r, const Outline& outline, const SectionMesh& section,
   }
 }
 
+/// What lies beyond a column presses on it with the total horizontal stress of level ground, water
+/// above it included: K_0 sigma'_v + u. Left out, the end of the section, which presses as much
+/// from within, would shear the column outwards.
+void hold_column(Model& r, const SectionMesh& section, const char* side, const FemConfig& config) {
+  const QuadMesh& mesh = r.mesh;
+  std::vector<Edge> edges = find_set(section, side).edges;
+  const auto middle = [&mesh](const Edge& e) {
+    return 0.5 * (mesh.nodes[e[0]][1] + mesh.nodes[e[1]][1]);
+  };
+  std::ranges::sort(edges, [&](const Edge& a, const Edge& b) { return middle(a) > middle(b); });
+  const auto water_above = [&](double y) {
+    if (!config.water) return 0.0;
+    const double level = water_level(*config.water, mesh.nodes[edges.front()[0]][0]);
+    return config.water->density * r.gravity * std::max(0.0, level - y);
+  };
+  double vertical = 0.0;  // total stress above the edge [Pa]
+  for (const Edge& edge : edges) {
+    const double rise = mesh.nodes[edge[1]][1] - mesh.nodes[edge[0]][1];  // outwards positive
+    const double half = 0.5 * std::abs(rise);
+    if (vertical == 0.0) vertical = water_above(middle(edge) + half);
+    const Material& m = r.materials[r.material[element_of(mesh, edge)]];
+    vertical += m.density * r.gravity * half;
+    const double u = m.drained ? 0.0 : water_above(middle(edge));
+    const double k0 = m.gravity_poisson / (1.0 - m.gravity_poisson);
+    const double horizontal = u + k0 * std::max(0.0, vertical - u);
+    vertical += m.density * r.gravity * half;
+    for (const std::int32_t node : edge) {
+      const std::int32_t d = r.dof[node][0];
+      // the base is held while the section comes to rest
+      if (std::ranges::find(r.base_dofs, d) == r.base_dofs.end())
+        r.load[d] -= 0.5 * horizontal * rise;
+    }
+  }
+}
+
 }  // namespace
+
+std::vector<HistoryMaterial> history_materials(const SectionMesh& section,
+                                               const FemConfig& config) {
+  std::vector<HistoryMaterial> materials;
+  for (const MaterialName& m : section.materials) {
+    const FemMaterialConfig& c = settings_of(m, config);
+    std::string law;
+    ShakingLaws::each([&]<class M>() {
+      if (c.laws.of<M>()) law = M::name;
+    });
+    materials.push_back(
+        {m.name, m.tag, c.density, c.void_ratio / (1.0 + c.void_ratio), std::move(law)});
+  }
+  return materials;
+}
 
 double water_level(const WaterConfig& water, double x) {
   const auto& table = water.table;
@@ -235,6 +289,8 @@ Model build_model(const SectionMesh& section, const FemConfig& config) {
   set_base(r, outline, config.base);
   r.known_pressure.assign(r.mesh.num_nodes(), kUnset);
   set_water(r, outline, section, config);
+  if (config.sides.kind == SideKind::free_field)
+    for (const char* side : {"left", "right"}) hold_column(r, section, side, config);
   return r;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace flowslide::fem {
 
@@ -32,19 +33,46 @@ void deform(Solver& s, std::int32_t begin, std::int32_t end, double& largest) {
 
 namespace {
 
-template <class M>
-void update_stress(Solver& s, std::size_t e, Counters& counters) {
+/// The next elements of a law that no thread has taken, `block` of them at most; false at the end.
+bool take(std::atomic<std::int32_t>& taken, std::size_t last, std::size_t block, std::size_t& begin,
+          std::size_t& end) {
+  begin = static_cast<std::size_t>(taken.fetch_add(static_cast<std::int32_t>(block)));
+  end = std::min(last, begin + block);
+  return begin < last;
+}
+
+StrainIncrement<2> strain_of(const Solver& s, std::size_t e) {
   const double* d = &s.strain[3 * e];
-  const StrainIncrement<2> de{{d[0], d[1], 0.0, d[2]}};
-  typename M::State& state = state_of<M>(s, e);
-  const auto r = M::update(constants_of<M>(s, s.layout.material[e]), state, s.state.stress[e], de);
-  s.state.stress[e] = r.stress;
-  state = r.state;
-  if constexpr (requires { r.sub_steps; }) {
-    counters.sub_steps += r.sub_steps;
-    counters.rejected += r.rejected;
-    counters.floored += r.floored;
-  }
+  return {{d[0], d[1], 0.0, d[2]}};
+}
+
+/// Elements of a law that integrates many points at a time.
+template <class M>
+requires requires { typename M::Task; }
+Counters update_law(Solver& s, std::atomic<std::int32_t>& taken, std::size_t last) {
+  std::size_t e = 0, end = 0;
+  const auto next = [&](typename M::Task& task) {
+    if (e == end && !take(taken, last, kPackLanes, e, end)) return false;
+    task = {&constants_of<M>(s, s.layout.material[e]), &state_of<M>(s, e), &s.state.stress[e],
+            strain_of(s, e)};
+    ++e;
+    return true;
+  };
+  const auto work = M::update_all(std::cref(next));  // a copy would be allocated
+  return {work.sub_steps, work.rejected, work.floored};
+}
+
+template <class M>
+Counters update_law(Solver& s, std::atomic<std::int32_t>& taken, std::size_t last) {
+  for (std::size_t e, end; take(taken, last, kChunk, e, end);)
+    for (; e < end; ++e) {
+      typename M::State& state = state_of<M>(s, e);
+      const auto r = M::update(constants_of<M>(s, s.layout.material[e]), state, s.state.stress[e],
+                               strain_of(s, e));
+      s.state.stress[e] = r.stress;
+      state = r.state;
+    }
+  return {};
 }
 
 /// Takes back hourglass displacement beyond the strength of the soil.
@@ -61,16 +89,33 @@ void yield_hourglass(Solver& s, std::size_t e) {
 
 }  // namespace
 
-void update_stresses(Solver& s, std::int32_t begin, std::int32_t end, Solver::ChunkSums& sums) {
-  each_law(s.layout, begin, end, [&]<class M>(std::size_t first, std::size_t last) {
-    for (std::size_t e = first; e < last; ++e) {
-      update_stress<M>(s, e, sums.counters);
-      if (!s.hourglass_strength.empty()) yield_hourglass(s, e);
-      const Stress<2>& stress = s.state.stress[e];
-      if (!std::isfinite(stress[0] + stress[1] + stress[3]) && sums.failed < 0)
-        sums.failed = static_cast<std::int32_t>(e);
-    }
+StressQueue::StressQueue(const Layout& l) {
+  for (std::size_t k = 0; k < taken.size(); ++k)
+    taken[k] = static_cast<std::int32_t>(l.law_begin[k]);
+}
+
+void update_stresses(Solver& s, StressQueue& queue) {
+  Counters sum;
+  each_law(s.layout, 0, s.layout.elements.size(), [&]<class M>(std::size_t, std::size_t last) {
+    const Counters c = update_law<M>(s, queue.taken[ShakingLaws::index<M>()], last);
+    sum.sub_steps += c.sub_steps;
+    sum.rejected += c.rejected;
+    sum.floored += c.floored;
   });
+#pragma omp atomic
+  s.counters.sub_steps += sum.sub_steps;
+#pragma omp atomic
+  s.counters.rejected += sum.rejected;
+#pragma omp atomic
+  s.counters.floored += sum.floored;
+}
+
+void check_stresses(Solver& s, std::int32_t begin, std::int32_t end, Solver::ChunkSums& sums) {
+  for (std::int32_t e = begin; e < end; ++e) {
+    if (!s.hourglass_strength.empty()) yield_hourglass(s, e);
+    const Stress<2>& stress = s.state.stress[e];
+    if (!std::isfinite(stress[0] + stress[1] + stress[3]) && sums.failed < 0) sums.failed = e;
+  }
 }
 
 void flow(Solver& s, std::int32_t begin, std::int32_t end) {

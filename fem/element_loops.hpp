@@ -1,6 +1,8 @@
 #pragma once
 #include "fem/solver.hpp"
 
+#include <atomic>
+
 /// What every time integration does with the elements `begin` to `end`, on the state of the solver
 /// and its step s.dt.
 namespace flowslide::fem {
@@ -11,9 +13,19 @@ inline constexpr double kLargestStrainStep = 0.2;  ///< beyond it small strains 
 /// increment.
 void deform(Solver& s, std::int32_t begin, std::int32_t end, double& largest);
 
-/// Strain increments to stresses and states of the laws; hourglass motion beyond the strength of
-/// the soil is taken back. Fills counters and `failed`.
-void update_stresses(Solver& s, std::int32_t begin, std::int32_t end, Solver::ChunkSums& sums);
+/// Elements of each law that have been taken by a thread, from the first one on.
+struct StressQueue {
+  explicit StressQueue(const Layout& l);
+  std::array<std::atomic<std::int32_t>, ShakingLaws::size> taken;
+};
+
+/// Strain increments to stresses and states of the laws. To be called by all threads of a parallel
+/// region with a fresh queue: each takes elements until none is left, and nobody waits for another.
+void update_stresses(Solver& s, StressQueue& queue);
+
+/// After all stresses: hourglass motion beyond the strength of the soil is taken back. Fills
+/// `failed`.
+void check_stresses(Solver& s, std::int32_t begin, std::int32_t end, Solver::ChunkSums& sums);
 
 /// Water that the elements press to their nodes: volume change and Darcy flow.
 void flow(Solver& s, std::int32_t begin, std::int32_t end);

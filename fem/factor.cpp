@@ -2,15 +2,20 @@
 
 #include "core/check.hpp"
 #include "core/memory.hpp"
+#include "core/pack.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 namespace flowslide::fem {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
+
+constexpr std::int32_t kBlock = 8;  ///< rows solved at a time, and numbers of a row
+constexpr std::size_t kBlockSize = kBlock * kBlock;
 
 std::vector<std::vector<std::int32_t>> neighbours(const Sparse& m) {
   std::vector<std::vector<std::int32_t>> r(m.rows());
@@ -65,14 +70,20 @@ std::vector<std::int32_t> cuthill_mckee(const Sparse& m) {
   return order;
 }
 
-/// Sum of a_k b_k in eight partial sums, which registers of any width can hold.
-double dot(const double* a, const double* b, std::int32_t count) {
-  std::array<double, 8> part{};
-  std::int32_t k = 0;
-  for (; k + 8 <= count; k += 8)
-    for (std::size_t i = 0; i < 8; ++i) part[i] += a[k + i] * b[k + i];
-  for (std::size_t i = 0; k < count; ++i, ++k) part[i] += a[k] * b[k];
-  return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+/// A row of a block. Sums over its places have the same order however wide registers are.
+using Block = VectorOf<kBlock>::Real;
+
+void load(Block& to, const double* from) { std::memcpy(&to, from, sizeof to); }
+void store(double* to, const Block& from) { std::memcpy(to, &from, sizeof from); }
+
+/// sum_k row k of the matrix times y_k.
+void combine(const double* matrix, const double* y, double* to) {
+  Block sum{}, row;
+  for (std::int32_t k = 0; k < kBlock; ++k) {
+    load(row, matrix + kBlock * k);
+    sum += row * y[k];
+  }
+  store(to, sum);
 }
 
 }  // namespace
@@ -90,7 +101,11 @@ BandFactor::BandFactor(const Sparse& pattern) : n_(static_cast<std::int32_t>(pat
                 "use larger elements");
   rows_.resize(static_cast<std::size_t>(n_) * (width_ + 1));
   inverse_.resize(n_);
-  work_.resize(n_);
+  reach_ = (width_ + kBlock - 1) / kBlock * kBlock;
+  const std::size_t blocks = (static_cast<std::size_t>(n_) + kBlock - 1) / kBlock;
+  left_.resize(blocks * kBlock * reach_);
+  blocks_.resize(2 * blocks * kBlockSize);
+  work_.assign(reach_ + blocks * kBlock, 0.0);
 }
 
 void BandFactor::factorise(const Sparse& matrix) {
@@ -124,24 +139,68 @@ void BandFactor::factorise(const Sparse& matrix) {
       inverse_[i] = 1.0 / std::sqrt(s);
     }
   }
+  for (std::int32_t i = 0; i < n_; i += kBlock) set_block(i);
+}
+
+/// What `solve` needs of the rows from `i` on.
+void BandFactor::set_block(std::int32_t i) {
+  const std::int32_t w = width_;
+  const auto element = [&](std::int32_t r, std::int32_t c) {
+    if (r >= n_ || c < 0 || c < r - w) return r == c ? 1.0 : 0.0;
+    return rows_[static_cast<std::size_t>(r) * (w + 1) + (c - r + w)];
+  };
+  double* left = &left_[static_cast<std::size_t>(i) * reach_];
+  for (std::int32_t r = i; r < i + kBlock; ++r)
+    for (std::int32_t c = i - reach_; c < i; ++c) *left++ = element(r, c);
+  double* block = &blocks_[2 * kBlock * static_cast<std::size_t>(i)];
+  double* transpose = block + kBlockSize;
+  std::fill(block, block + 2 * kBlockSize, 0.0);
+  for (std::int32_t c = 0; c < kBlock; ++c)
+    for (std::int32_t r = c; r < kBlock; ++r) {
+      double sum = r == c ? -1.0 : 0.0;
+      for (std::int32_t k = c; k < r; ++k) sum += element(i + r, i + k) * block[kBlock * k + c];
+      const double inverse = i + r < n_ ? inverse_[i + r] : 1.0;
+      block[kBlock * r + c] = transpose[kBlock * c + r] = -inverse * sum;
+    }
 }
 
 void BandFactor::solve(double* b) {
-  const std::int32_t w = width_;
-  double* x = work_.data();
+  double* x = work_.data() + reach_;
   for (std::int32_t u = 0; u < n_; ++u) x[position_[u]] = b[u];
-  for (std::int32_t i = 0; i < n_; ++i) {
-    const std::int32_t first = std::max(0, i - w), count = i - first;
-    const double* row = &rows_[static_cast<std::size_t>(i) * (w + 1)] + (w - count);
-    x[i] = (x[i] - dot(row, x + first, count)) * inverse_[i];
+  const auto left = [&](std::int32_t i, std::int32_t r) {
+    return &left_[static_cast<std::size_t>(i + r) * reach_];
+  };
+  const auto block = [&](std::int32_t i) {
+    return &blocks_[2 * kBlock * static_cast<std::size_t>(i)];
+  };
+  std::array<double, kBlock> y;
+  Block row, part;
+  for (std::int32_t i = 0; i < n_; i += kBlock) {
+    for (std::int32_t r = 0; r < kBlock; ++r) {
+      const double *l = left(i, r), *before = x + i - reach_;
+      Block sum{};
+      for (std::int32_t k = 0; k < reach_; k += kBlock) {
+        load(row, l + k);
+        load(part, before + k);
+        sum += row * part;
+      }
+      y[r] = x[i + r] -
+             (((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7])));
+    }
+    combine(block(i) + kBlockSize, y.data(), x + i);
   }
-  for (std::int32_t i = n_; i-- > 0;) {
-    const std::int32_t first = std::max(0, i - w), count = i - first;
-    const double* row = &rows_[static_cast<std::size_t>(i) * (w + 1)] + (w - count);
-    double* above = x + first;
-    const double xi = x[i] *= inverse_[i];
-#pragma omp simd
-    for (std::int32_t k = 0; k < count; ++k) above[k] -= row[k] * xi;
+  for (std::int32_t i = (n_ - 1) / kBlock * kBlock; i >= 0; i -= kBlock) {
+    std::copy(x + i, x + i + kBlock, y.begin());
+    combine(block(i), y.data(), x + i);
+    for (std::int32_t k = 0; k < reach_; k += kBlock) {
+      Block sum{};
+      for (std::int32_t r = 0; r < kBlock; ++r) {
+        load(row, left(i, r) + k);
+        sum += row * x[i + r];
+      }
+      load(part, x + i - reach_ + k);
+      store(x + i - reach_ + k, part - sum);
+    }
   }
   for (std::int32_t u = 0; u < n_; ++u) b[u] = x[position_[u]];
 }

@@ -88,10 +88,16 @@ bool ImplicitSteps::follow_soil(Solver& s) {
     largest = std::max(largest, s.element_sums[c].largest_strain);
   }
   if (!(largest <= kLargestStrainStep)) return false;
-#pragma omp parallel for schedule(dynamic, 1)
-  for (std::int32_t c = 0; c < chunks; ++c) {
-    update_stresses(s, c * kChunk, end_of(c), s.element_sums[c]);
-    flow(s, c * kChunk, end_of(c));
+  StressQueue queue(s.layout);
+#pragma omp parallel
+  {
+    update_stresses(s, queue);
+#pragma omp barrier
+#pragma omp for schedule(static)
+    for (std::int32_t c = 0; c < chunks; ++c) {
+      check_stresses(s, c * kChunk, end_of(c), s.element_sums[c]);
+      flow(s, c * kChunk, end_of(c));
+    }
   }
   end_stress_ = s.state.stress;
   end_hourglass_x_ = s.state.hourglass_x;
@@ -107,9 +113,6 @@ bool ImplicitSteps::follow_soil(Solver& s) {
     internal_forces(s, c * kChunk, end_of(c), s.element_sums[c]);
   bool finite = true;
   for (const Solver::ChunkSums& sums : s.element_sums) {
-    s.counters.sub_steps += sums.counters.sub_steps;
-    s.counters.rejected += sums.counters.rejected;
-    s.counters.floored += sums.counters.floored;
     finite = finite && sums.failed < 0;
   }
   return finite;

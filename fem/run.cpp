@@ -47,8 +47,9 @@ void check_output(const FemConfig& config, double end, std::size_t nodes, std::s
            "output_interval = {:g} s asks for {:.2g} recorded states until {:g} s (at most {:g} "
            "are kept) raise output_interval or lower end",
            config.output_interval, frames, end, kMostFrames);
-  const double bytes = frames * (5.0 * static_cast<double>(nodes) +
-                                 8.0 * static_cast<double>(elements)) * sizeof(double);
+  const double bytes = frames *
+                       (5.0 * static_cast<double>(nodes) + 8.0 * static_cast<double>(elements)) *
+                       sizeof(double);
   validate(bytes <= kMostBytes,
            "output_interval = {:g} s asks for {:.3g} GB of recorded states until {:g} s (at most "
            "{:g} GB are written) raise output_interval or lower end",
@@ -89,6 +90,16 @@ void set_stabilisation(Solver& s, const StabilisationConfig& c) {
     const double modulus = c.modulus.value_or(s.lambda[e] + 2.0 * s.shear[e]);
     s.water.alpha[e] = c.pressure * s.layout.elements.area[e] / modulus;
   }
+}
+
+/// Explicit steps follow each other without iterations, and laws may be integrated more coarsely.
+void set_explicit_constants(Solver& s) {
+  for (std::size_t i = 0; i < s.model.materials.size(); ++i)
+    std::visit(
+        [&]<class M>(const flowslide::Material<M>& law) {
+          std::get<LawConstants<M>>(s.laws).of[i] = mesh_constants<M>(law.params);
+        },
+        s.model.materials[i].law);
 }
 
 /// Explicit steps below the stable one that end at the times of output.
@@ -144,6 +155,7 @@ Stepper make_stepper(Solver& s, const FemConfig& config, const GroundMotion& mot
           solver, run.implicit, left, [&](double t) { return ground->at(t); }, progress);
     };
   }
+  set_explicit_constants(s);
   const auto steps = std::make_shared<ExplicitSteps>(s, config.courant, end, threads);
   return [=](Solver& solver, RunState& run, double left) {
     steps->advance(solver, run, left, *ground);
@@ -203,7 +215,9 @@ struct Shaking {
     run.seconds = seconds_before + seconds;
     write_checkpoint(checkpoint, origin, s, run);
   }
-  [[nodiscard]] double share() const { return s.state.time / end; }
+  [[nodiscard]] Share share() const {
+    return {s.state.time / end, bool(rule.ends) || config.stop_displacement};
+  }
   [[nodiscard]] std::string text() const {
     return fmt::format("{:.2f} s, step {:.3g} s", s.state.time, s.dt);
   }
@@ -286,7 +300,7 @@ FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const F
       .base = nodes_of(find_set(section, "base")),
       .frame = rest,
       .history = ResumableHistoryWriter(
-          paths.history, section.mesh,
+          paths.history, section.mesh, history_materials(section, config),
           {"flowslide fem.run",
            "mean of xx and yy for PM4Sand, elastic plane strain for other laws", notes},
           rest, static_cast<std::size_t>(run.output - 1))};

@@ -99,7 +99,6 @@ struct Solver {
   struct ChunkSums {
     double deformation = 0.0, viscous = 0.0;
     double largest_strain = 0.0;
-    Counters counters;
     std::int32_t failed = -1;  ///< first element whose stress is not finite
   };
   std::vector<ChunkSums> element_sums;

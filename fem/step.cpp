@@ -98,24 +98,24 @@ void advance(Solver& s, const BaseMotion& base) {
   const auto end_of = [](std::int32_t c, std::int32_t n) { return std::min(n, (c + 1) * kChunk); };
   if (s.water.factor_dt != s.dt) factorise(s.water, s.layout, s.dt);
   if (s.state.step == 0) s.state.last_dt = s.dt;
+  StressQueue queue(s.layout);
 #pragma omp parallel
   {
 #pragma omp for schedule(static)
     for (std::int32_t c = 0; c < unknown_chunks; ++c)
       s.unknown_sums[c] = move(s, c * kChunk, end_of(c, s.model.num_dofs), base);
-#pragma omp for schedule(dynamic, 1)
+#pragma omp for schedule(static)
     for (std::int32_t c = 0; c < element_chunks; ++c) {
       Solver::ChunkSums sums;
       const std::int32_t begin = c * kChunk, end = end_of(c, elements);
       deform(s, begin, end, sums.largest_strain);
-      update_stresses(s, begin, end, sums);
       flow(s, begin, end);
       s.element_sums[c] = sums;
     }
 #pragma omp for schedule(static)
     for (std::int32_t q = 0; q < s.water.num_equations; ++q)
       s.pressure_rate[q] = s.water.flow.sum(q, s.entry_flow.data());
-#pragma omp single
+#pragma omp single nowait
     if (s.water.num_equations > 0) {
       s.water.factor.solve(s.pressure_rate.data());
       for (std::size_t i = 0; i < s.state.pressure.size(); ++i) {
@@ -123,9 +123,14 @@ void advance(Solver& s, const BaseMotion& base) {
         if (q < s.water.num_equations) s.state.pressure[i] += s.dt * s.pressure_rate[q];
       }
     }
+    // beside the water, which does not hang on them
+    update_stresses(s, queue);
+#pragma omp barrier
 #pragma omp for schedule(static)
-    for (std::int32_t c = 0; c < element_chunks; ++c)
+    for (std::int32_t c = 0; c < element_chunks; ++c) {
+      check_stresses(s, c * kChunk, end_of(c, elements), s.element_sums[c]);
       internal_forces(s, c * kChunk, end_of(c, elements), s.element_sums[c]);
+    }
   }
   add_energy(s);
   s.state.pending_deformation = s.state.pending_viscous = 0.0;
@@ -133,9 +138,6 @@ void advance(Solver& s, const BaseMotion& base) {
     const Solver::ChunkSums& sums = s.element_sums[c];
     s.state.pending_deformation += sums.deformation;
     s.state.pending_viscous += sums.viscous;
-    s.counters.sub_steps += sums.counters.sub_steps;
-    s.counters.rejected += sums.counters.rejected;
-    s.counters.floored += sums.counters.floored;
     if (sums.failed >= 0) report_failure(s, sums.failed);
     if (!(sums.largest_strain <= kLargestStrainStep))
       report_failure(s, largest_deformation(s, c * kChunk, end_of(c, elements)));

@@ -291,6 +291,18 @@ std::vector<std::string> mesh_warnings(const OpenSeesConfig& config, const QuadM
                       config.mesh.nodes.path.filename().string(), problem)};
 }
 
+std::vector<HistoryMaterial> named_materials(const OpenSeesConfig& config, const QuadMesh& mesh) {
+  std::vector<HistoryMaterial> materials;
+  for (const auto& [name, m] : config.materials)
+    materials.push_back({name, m.tag, m.density, m.porosity.value_or(kUnset)});
+  try {
+    check(mesh, materials);
+  } catch (const InputError& e) {
+    throw InputError(fmt::format("`materials`: {}", e.what()));
+  }
+  return materials;
+}
+
 }  // namespace
 
 ImportReport import_opensees(const OpenSeesConfig& config, const std::filesystem::path& out,
@@ -300,6 +312,7 @@ ImportReport import_opensees(const OpenSeesConfig& config, const std::filesystem
                         unit_factor(config.units.time, Dim::time),
                         unit_factor(config.units.stress, Dim::stress)};
   const MeshText text = read_mesh_text(config.mesh, factors.length);
+  const std::vector<HistoryMaterial> materials = named_materials(config, text.mesh);
   ImportReport report;
   report.origin = {"OpenSees text recorders", rule_in_words(config.sigma_zz), text.notes};
   report.num_nodes = text.mesh.num_nodes();
@@ -328,7 +341,7 @@ ImportReport import_opensees(const OpenSeesConfig& config, const std::filesystem
     report.origin.notes.push_back("warning: " + warning);
 
   MotionWatch watch(text.mesh);
-  FemHistoryWriter writer(out, text.mesh, report.origin);
+  FemHistoryWriter writer(out, text.mesh, materials, report.origin);
   writer.set_gravity(gravity);
   for (std::size_t i = 0; i < report.num_frames; ++i) {
     if (i > 0) frame = &source->read(i);
@@ -347,7 +360,8 @@ ImportPreview preview_opensees(const OpenSeesConfig& config) {
   const Factors factors{unit_factor(config.units.length, Dim::length),
                         unit_factor(config.units.time, Dim::time),
                         unit_factor(config.units.stress, Dim::stress)};
-  ImportPreview preview{read_mesh_text(config.mesh, factors.length).mesh, {}};
+  ImportPreview preview{read_mesh_text(config.mesh, factors.length).mesh, {}, {}};
+  preview.materials = named_materials(config, preview.mesh);
   std::vector<std::string> notes;
   const Context context{config, preview.mesh, factors, &notes, &preview.warnings};
   preview.warnings = mesh_warnings(config, preview.mesh);

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -76,8 +77,16 @@ struct SigmaZz {
 enum class BadRows { error, stop };
 inline constexpr std::array<std::string_view, 2> kBadRows = {"error", "stop"};
 
+/// A material of the model: its name in later stages, and what they need of it.
+struct OpenSeesMaterial {
+  int tag = -1;
+  double density = kUnset;         ///< [kg/m3]
+  std::optional<double> porosity;  ///< [-]
+};
+
 struct OpenSeesConfig {
   MeshTextConfig mesh;
+  std::map<std::string, OpenSeesMaterial> materials;
   OpenSeesUnits units;
   OpenSeesColumns columns;
   OpenSeesGravity gravity;
@@ -112,6 +121,11 @@ struct Schema<SigmaZz> {
   static void describe(FieldVisitor& v, SigmaZz& c);
 };
 template <>
+struct Schema<OpenSeesMaterial> {
+  static constexpr std::string_view doc = "A material of the model.";
+  static void describe(FieldVisitor& v, OpenSeesMaterial& c);
+};
+template <>
 struct Schema<OpenSeesConfig> {
   static constexpr std::string_view doc = "OpenSees text recorders of a plane-strain u-p model.";
   static void describe(FieldVisitor& v, OpenSeesConfig& c);
@@ -134,6 +148,7 @@ void check(const OpenSeesConfig& config);
 /// What can be known without reading all of large files.
 struct ImportPreview {
   QuadMesh mesh;
+  std::vector<HistoryMaterial> materials;
   std::vector<std::string> warnings;
 };
 

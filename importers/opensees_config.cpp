@@ -82,8 +82,16 @@ void Schema<SigmaZz>::describe(FieldVisitor& v, SigmaZz& c) {
   v.quantity("k0", c.k0, Dim::none, {.above = 0.0}, "earth pressure coefficient of rule k0");
 }
 
+void Schema<OpenSeesMaterial>::describe(FieldVisitor& v, OpenSeesMaterial& c) {
+  v.integer("tag", c.tag, {.min = 0}, "its tag in the table of elements");
+  v.quantity("density", c.density, Dim::density, {.above = 0.0},
+             "density before deformation, of grains and water together");
+  v.quantity("porosity", c.porosity, Dim::none, {.above = 0.0, .below = 1.0}, "porosity n");
+}
+
 void Schema<OpenSeesConfig>::describe(FieldVisitor& v, OpenSeesConfig& c) {
   v.group("mesh", c.mesh, "nodes and elements");
+  v.table("materials", c.materials, "materials of the model by the names of later stages");
   v.group("units", c.units, "units of the files");
   v.group("columns", c.columns, "columns of the recorders");
   v.group("gravity", c.gravity, "state at rest");
@@ -94,6 +102,9 @@ void Schema<OpenSeesConfig>::describe(FieldVisitor& v, OpenSeesConfig& c) {
 }
 
 void check(const OpenSeesConfig& c) {
+  validate(!c.materials.empty(),
+           "`materials` is empty (later stages know soils by name, and their mass from here) write "
+           "e.g. materials: {{tailings: {{tag: 168, density: 1870 kg/m3}}}}");
   const std::set<std::string> none;
   check_components(c.columns.displacement, "displacement", {"x", "y"}, none);
   check_components(c.columns.velocity, "velocity", {"x", "y"}, none);

@@ -230,7 +230,7 @@ struct FieldReader::Impl {
 };
 
 FieldReader::FieldReader(const std::filesystem::path& path, std::string_view kind,
-                         int newest_format)
+                         int newest_format, int oldest_format)
     : impl_(std::make_unique<Impl>()) {
   start_hdf5();
   impl_->path = path;
@@ -242,10 +242,11 @@ FieldReader::FieldReader(const std::filesystem::path& path, std::string_view kin
                         : fmt::format("is of the kind '{}'", stored),
          kind);
   const std::int64_t format = root_integer(path, impl_->file, "format_version");
-  demand(path, format >= 1 && format <= newest_format,
-         "'{}' has the format version {} of {} (this program reads 1 to {}, the file comes from "
+  demand(path, format >= oldest_format && format <= newest_format,
+         "'{}' has the format version {} of {} (this program reads {} to {}, the file comes from "
          "{}); use the program that wrote it or make the file again",
-         path.string(), format, kind, newest_format, root_text(path, impl_->file, "program"));
+         path.string(), format, kind, oldest_format, newest_format,
+         root_text(path, impl_->file, "program"));
 }
 
 FieldReader::~FieldReader() = default;

@@ -4,11 +4,13 @@
 #include "model/field_store.hpp"
 #include "model/mesh_store.hpp"
 
+#include <algorithm>
+
 namespace flowslide {
 namespace {
 
 constexpr std::string_view kKind = "fem_history";
-constexpr int kFormat = 1;
+constexpr int kFormat = 2, kOldest = 2;  // 1 had no materials
 
 constexpr FieldLabel kTime{.unit = "s", .convention = "from the start of the motion"};
 constexpr FieldLabel kDisplacement{.unit = "m",
@@ -34,6 +36,45 @@ void visit_arrays(Frame& frame, F&& f) {
   f("strain", kStrain, frame.strain, false);
 }
 
+void write_materials(FieldWriter& out, std::vector<HistoryMaterial> materials) {
+  std::sort(materials.begin(), materials.end(),
+            [](const auto& a, const auto& b) { return a.tag < b.tag; });
+  std::vector<std::string> names, laws;
+  std::vector<std::int32_t> tags;
+  std::vector<double> density, porosity;
+  for (const HistoryMaterial& m : materials) {
+    names.push_back(m.name);
+    laws.push_back(m.law);
+    tags.push_back(m.tag);
+    density.push_back(m.density);
+    porosity.push_back(m.porosity);
+  }
+  out.write_texts("materials/name", names);
+  out.write_texts("materials/law", laws);
+  out.write("materials/tag", tags, {.unit = "", .convention = "as in mesh/element_material"});
+  out.write("materials/density", density,
+            {.unit = "kg/m3", .convention = "before deformation, grains and water"});
+  out.write("materials/porosity", porosity, {.unit = "-", .convention = "", .nan = Nan::allowed});
+}
+
+std::vector<HistoryMaterial> read_materials(const FieldReader& in, const QuadMesh& mesh) {
+  const std::vector<std::string> names = in.read_texts("materials/name");
+  const std::size_t n = names.size();
+  const std::vector<std::string> laws = in.read_texts("materials/law", n);
+  const auto tags = in.read<std::int32_t>("materials/tag", n);
+  const auto density = in.read<double>("materials/density", n);
+  const auto porosity = in.read<double>("materials/porosity", n, Nan::allowed);
+  std::vector<HistoryMaterial> materials;
+  for (std::size_t i = 0; i < n; ++i)
+    materials.push_back({names[i], tags[i], density[i], porosity[i], laws[i]});
+  try {
+    check(mesh, materials);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("'{}': {}", in.path().string(), error.what()));
+  }
+  return materials;
+}
+
 }  // namespace
 
 struct FemHistoryWriter::Impl {
@@ -54,14 +95,17 @@ struct FemHistoryWriter::Impl {
 };
 
 FemHistoryWriter::FemHistoryWriter(const std::filesystem::path& path, const QuadMesh& mesh,
+                                   const std::vector<HistoryMaterial>& materials,
                                    const HistoryOrigin& origin) {
   check(mesh);
+  check(mesh, materials);
   impl_.reset(new Impl{.out = FieldWriter(path, kKind, kFormat),
                        .path = path,
                        .num_nodes = mesh.num_nodes(),
                        .num_elements = mesh.num_elements(),
                        .times = {}});
   write_mesh(impl_->out, mesh);
+  write_materials(impl_->out, materials);
   impl_->out.write_texts("origin/program", {origin.program});
   impl_->out.write_texts("origin/sigma_zz_rule", {origin.sigma_zz_rule});
   impl_->out.write_texts("origin/notes", origin.notes);
@@ -104,19 +148,22 @@ void FemHistoryWriter::finish() {
 struct FemHistory::Impl {
   FieldReader in;
   QuadMesh mesh;
+  std::vector<HistoryMaterial> materials;
   HistoryOrigin origin;
   FemFrame gravity;
   std::vector<double> times;
 };
 
 FemHistory::FemHistory(const std::filesystem::path& path)
-    : impl_(new Impl{.in = FieldReader(path, kKind, kFormat),
+    : impl_(new Impl{.in = FieldReader(path, kKind, kFormat, kOldest),
                      .mesh = {},
+                     .materials = {},
                      .origin = {},
                      .gravity = {},
                      .times = {}}) {
   const FieldReader& in = impl_->in;
   impl_->mesh = read_mesh(in);
+  impl_->materials = read_materials(in, impl_->mesh);
   impl_->origin.program = in.read_texts("origin/program", 1)[0];
   impl_->origin.sigma_zz_rule = in.read_texts("origin/sigma_zz_rule", 1)[0];
   impl_->origin.notes = in.read_texts("origin/notes");
@@ -145,6 +192,7 @@ FemHistory::FemHistory(FemHistory&&) noexcept = default;
 FemHistory& FemHistory::operator=(FemHistory&&) noexcept = default;
 
 const QuadMesh& FemHistory::mesh() const { return impl_->mesh; }
+const std::vector<HistoryMaterial>& FemHistory::materials() const { return impl_->materials; }
 const HistoryOrigin& FemHistory::origin() const { return impl_->origin; }
 const FemFrame& FemHistory::gravity() const { return impl_->gravity; }
 const std::vector<double>& FemHistory::times() const { return impl_->times; }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/voigt.hpp"
+#include "model/history_material.hpp"
 #include "model/mesh.hpp"
 
 /// What a dynamic finite-element run leaves behind, whichever program made it: the one door through
@@ -31,8 +32,9 @@ struct HistoryOrigin {
 /// The file is there after finish(); an unfinished writer leaves nothing. Throws FileError.
 class FemHistoryWriter {
  public:
+  /// Throws InputError for materials that are not those of the mesh.
   FemHistoryWriter(const std::filesystem::path& path, const QuadMesh& mesh,
-                   const HistoryOrigin& origin);
+                   const std::vector<HistoryMaterial>& materials, const HistoryOrigin& origin);
   ~FemHistoryWriter();
   FemHistoryWriter(const FemHistoryWriter&) = delete;
   FemHistoryWriter& operator=(const FemHistoryWriter&) = delete;
@@ -56,6 +58,7 @@ class FemHistory {
   FemHistory& operator=(FemHistory&&) noexcept;
 
   [[nodiscard]] const QuadMesh& mesh() const;
+  [[nodiscard]] const std::vector<HistoryMaterial>& materials() const;  ///< by ascending tag
   [[nodiscard]] const HistoryOrigin& origin() const;
   [[nodiscard]] const FemFrame& gravity() const;
   [[nodiscard]] const std::vector<double>& times() const;  ///< [s], may be empty (gravity only)

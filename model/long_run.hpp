@@ -18,7 +18,7 @@ template <class R>
 concept LongRun = requires(R& run, const R& now, double seconds) {
   { run.step() } -> std::same_as<bool>;       ///< one step; true if it recorded a state
   { now.ended() } -> std::same_as<bool>;      ///< false before the first step of the run
-  { now.share() } -> std::same_as<double>;    ///< of the work that is done, 0 to 1
+  { now.share() } -> std::same_as<Share>;       ///< of the work that is done
   { now.text() } -> std::same_as<std::string>;   ///< about its state, one short line
   { now.place() } -> std::same_as<std::string>;  ///< where it is, for "interrupted at ..."
   /// Flushes the history and then writes the checkpoint that counts what is in it; told the wall
@@ -41,7 +41,7 @@ double run_to_end(R& run, const std::filesystem::path& checkpoint, const Progres
   while (!run.ended()) {
     const bool recorded = run.step();
     if (recorded || run.ended() || since(last_report) > kReportSeconds) {
-      progress.report(run.ended() ? 1.0 : run.share(), run.text());
+      progress.report(run.ended() ? Share(1.0) : run.share(), run.text());
       last_report = Clock::now();
     }
     if (run.ended()) break;

@@ -15,7 +15,7 @@ namespace flowslide {
 namespace {
 
 constexpr std::string_view kKind = "mpm_history";
-constexpr int kFormat = 2;
+constexpr int kFormat = 3, kOldest = 3;  // 2 had no toe, no rule of rest, no fronts by mass
 
 /// The one list of the arrays of a frame: f(name, label, array).
 template <class Frame, class F>
@@ -33,6 +33,14 @@ void visit_arrays(Frame& frame, F&& f) {
     FieldLabel{
         .unit = "Pa", .convention = "present undrained strength or cohesion", .nan = Nan::allowed},
     frame.strength);
+}
+
+/// The one list of what a rule of rest has: f(name, unit, value).
+template <class Rule, class F>
+void visit_rule(Rule& rule, F&& f) {
+  f("kinetic_share", "-", rule.kinetic_share);
+  f("runout_change", "m", rule.runout_change);
+  f("window", "s", rule.window);
 }
 
 /// Doubles of one frame: time, 3 + 3 + 6 + 1 + 1 + 1 per particle.
@@ -66,15 +74,17 @@ ParticleSet sorted_by_id(const ParticleSet& p) {
 struct MpmHistoryWriter::Impl {
   std::filesystem::path path;
   ParticleSet initial;
+  RestRule rest;
   PartsFolder folder;
   AppendFile frames, samples;
   std::vector<double> record;
   double last_time = -1e300;
 
-  Impl(std::filesystem::path target, const ParticleSet& particles, std::size_t keep_frames,
-       std::size_t keep_samples)
+  Impl(std::filesystem::path target, const ParticleSet& particles, const RestRule& rule,
+       std::size_t keep_frames, std::size_t keep_samples)
       : path(std::move(target)),
         initial(sorted_by_id(particles)),
+        rest(rule),
         folder(path, keep_frames == 0),
         frames(folder / "frames.bin", frame_doubles(initial.size()) * sizeof(double), keep_frames),
         samples(folder / "samples.bin", sizeof(MpmSample), keep_samples),
@@ -98,9 +108,9 @@ struct MpmHistoryWriter::Impl {
 };
 
 MpmHistoryWriter::MpmHistoryWriter(const std::filesystem::path& path, const ParticleSet& initial,
-                                   std::size_t frames, std::size_t samples) {
+                                   const RestRule& rest, std::size_t frames, std::size_t samples) {
   check(initial);
-  impl_ = std::make_unique<Impl>(path, initial, frames, samples);
+  impl_ = std::make_unique<Impl>(path, initial, rest, frames, samples);
 }
 
 MpmHistoryWriter::~MpmHistoryWriter() = default;
@@ -153,6 +163,9 @@ void MpmHistoryWriter::finish() {
   const std::filesystem::path joined = impl_->folder / "joined.h5";
   FieldWriter out(joined, kKind, kFormat);
   write_particles(out, impl_->initial);
+  visit_rule(impl_->rest, [&out](const char* name, const char* unit, double value) {
+    out.write(std::string("rest/") + name, std::vector<double>{value}, {.unit = unit});
+  });
   std::vector<double> times;
   for (std::size_t i = 0; i < impl_->frames.size(); ++i) {
     const MpmFrame frame = impl_->frame(i);
@@ -178,15 +191,22 @@ void MpmHistoryWriter::remove_parts() { impl_->folder.remove(); }
 struct MpmHistory::Impl {
   FieldReader in;
   ParticleSet initial;
+  RestRule rest;
   std::vector<double> times;
   std::vector<MpmSample> samples;
 };
 
 MpmHistory::MpmHistory(const std::filesystem::path& path)
-    : impl_(new Impl{
-          .in = FieldReader(path, kKind, kFormat), .initial = {}, .times = {}, .samples = {}}) {
+    : impl_(new Impl{.in = FieldReader(path, kKind, kFormat, kOldest),
+                     .initial = {},
+                     .rest = {},
+                     .times = {},
+                     .samples = {}}) {
   const FieldReader& in = impl_->in;
   impl_->initial = read_particles(in);
+  visit_rule(impl_->rest, [&in](const char* name, const char*, double& value) {
+    value = in.read_one<double>(std::string("rest/") + name);
+  });
   impl_->times = in.read<double>("frames/time");
   impl_->samples.resize(in.rows("samples/time"));
   for (const SampleColumn& c : kSampleColumns) {
@@ -200,6 +220,7 @@ MpmHistory::MpmHistory(MpmHistory&&) noexcept = default;
 MpmHistory& MpmHistory::operator=(MpmHistory&&) noexcept = default;
 
 const ParticleSet& MpmHistory::initial() const { return impl_->initial; }
+const RestRule& MpmHistory::rest() const { return impl_->rest; }
 std::size_t MpmHistory::num_frames() const { return impl_->times.size(); }
 const std::vector<double>& MpmHistory::times() const { return impl_->times; }
 const std::vector<MpmSample>& MpmHistory::samples() const { return impl_->samples; }

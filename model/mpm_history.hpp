@@ -1,5 +1,6 @@
 #pragma once
 #include "model/particle_set.hpp"
+#include "model/rest_rule.hpp"
 
 #include <array>
 #include <filesystem>
@@ -27,7 +28,7 @@ struct MpmFrame {
 /// not; the front counts points that left with the place where they did.
 struct MpmSample {
   double time = 0.0;
-  double runout = 0.0;         ///< [m] past the toe, by the fifth-farthest point
+  double runout = 0.0;         ///< [m] past ParticleSet::toe, by the fifth-farthest point
   double front = 0.0;          ///< x of the fifth-farthest point [m]
   double kinetic = 0.0;        ///< kinetic energy [J]
   double gravity_work = 0.0;   ///< work of gravity since the start [J]
@@ -48,6 +49,8 @@ struct MpmSample {
   double momentum_left_x = 0.0;     ///< momentum with which they left [N s]
   double momentum_left_y = 0.0;     ///< likewise, vertical [N s]
   double load_work = 0.0;           ///< work of tractions since the start [J]
+  /// Fronts by mass and the height (model/front.hpp) of the materials that count [m].
+  double front_equal_mass = 0.0, front_995 = 0.0, front_99 = 0.0, front_95 = 0.0, height = 0.0;
 };
 
 struct SampleColumn {
@@ -57,7 +60,7 @@ struct SampleColumn {
 };
 
 /// The one list of them: what is stored, and what tables show.
-inline constexpr std::array<SampleColumn, 22> kSampleColumns{
+inline constexpr std::array<SampleColumn, 27> kSampleColumns{
     {{"time", "s", &MpmSample::time},
      {"runout", "m", &MpmSample::runout},
      {"front", "m", &MpmSample::front},
@@ -79,7 +82,12 @@ inline constexpr std::array<SampleColumn, 22> kSampleColumns{
      {"strain_energy_left", "J", &MpmSample::strain_energy_left},
      {"momentum_left_x", "N s", &MpmSample::momentum_left_x},
      {"momentum_left_y", "N s", &MpmSample::momentum_left_y},
-     {"load_work", "J", &MpmSample::load_work}}};
+     {"load_work", "J", &MpmSample::load_work},
+     {"front_equal_mass", "m", &MpmSample::front_equal_mass},
+     {"front_995", "m", &MpmSample::front_995},
+     {"front_99", "m", &MpmSample::front_99},
+     {"front_95", "m", &MpmSample::front_95},
+     {"height", "m", &MpmSample::height}}};
 static_assert(sizeof(MpmSample) == kSampleColumns.size() * sizeof(double), "a column is missing");
 
 /// A MpmHistory of a run that may be killed and continued. While it is written, `path`.partial is a
@@ -90,7 +98,7 @@ class MpmHistoryWriter {
   /// @param frames, samples already there: they are compared with their checksums and kept, what
   ///   comes behind is dropped. Without frames the folder is made anew.
   MpmHistoryWriter(const std::filesystem::path& path, const ParticleSet& initial,
-                   std::size_t frames = 0, std::size_t samples = 0);
+                   const RestRule& rest, std::size_t frames = 0, std::size_t samples = 0);
   ~MpmHistoryWriter();
   MpmHistoryWriter(const MpmHistoryWriter&) = delete;
   MpmHistoryWriter& operator=(const MpmHistoryWriter&) = delete;
@@ -115,8 +123,10 @@ class MpmHistory {
   ~MpmHistory();
   MpmHistory(MpmHistory&&) noexcept;
   MpmHistory& operator=(MpmHistory&&) noexcept;
-  /// The particles as they were handed over, in order of id: material, mass, initial state.
+  /// The particles as they were handed over, in order of id: material, mass, initial state, toe.
   [[nodiscard]] const ParticleSet& initial() const;
+  /// What the run ended by, if it did not end by its time.
+  [[nodiscard]] const RestRule& rest() const;
   [[nodiscard]] std::size_t num_frames() const;
   [[nodiscard]] const std::vector<double>& times() const;  ///< of the frames [s]
   [[nodiscard]] MpmFrame frame(std::size_t index) const;

@@ -12,7 +12,7 @@ namespace flowslide {
 namespace {
 
 constexpr std::string_view kKind = "particles";
-constexpr int kFormat = 1;
+constexpr int kFormat = 2, kOldest = 2;  // 1 had no toe
 
 std::string_view convention(std::string_view field) {
   if (field == "stress") return "total, tension positive, components xx yy zz xy yz zx";
@@ -75,6 +75,7 @@ void check(const ParticleSet& p) {
     validate(values.size() == n, "there are {} particles but {} values of {}", n, values.size(),
              name);
   }
+  validate(!std::isinf(p.toe), "the toe of the particles is infinite (no runout could be counted)");
   check_materials(p);
   std::unordered_set<std::int64_t> ids;
   ids.reserve(n);
@@ -98,6 +99,8 @@ void check(const ParticleSet& p) {
 
 void write_particles(FieldWriter& out, const ParticleSet& p) {
   out.write("dim", std::vector<std::int32_t>{p.dim}, {.unit = ""});
+  out.write("toe", std::vector<double>{p.toe},
+            {.unit = "m", .convention = "x from which the runout counts", .nan = Nan::allowed});
   visit_fields(p, [&out](std::string_view name, std::string_view unit, const auto& array) {
     out.write("particles/" + std::string(name), array,
               {.unit = unit, .convention = convention(name)});
@@ -107,7 +110,7 @@ void write_particles(FieldWriter& out, const ParticleSet& p) {
               {.unit = "", .convention = "SI; NaN means unset", .nan = Nan::allowed});
 
   std::vector<std::string> names, laws, keys;
-  std::vector<std::uint8_t> counts;
+  std::vector<std::uint8_t> counts, liquefied;
   std::vector<std::int32_t> owners;
   std::vector<double> values;
   for (const MaterialSpec& m : p.materials) {
@@ -119,10 +122,12 @@ void write_particles(FieldWriter& out, const ParticleSet& p) {
     names.push_back(m.name);
     laws.push_back(m.law);
     counts.push_back(m.counts_for_runout ? 1 : 0);
+    liquefied.push_back(m.liquefied ? 1 : 0);
   }
   out.write_texts("materials/name", names);
   out.write_texts("materials/law", laws);
   out.write("materials/counts_for_runout", counts, {.unit = "", .convention = "1 yes, 0 no"});
+  out.write("materials/liquefied", liquefied, {.unit = "", .convention = "1 yes, 0 no"});
   out.write("materials/parameter_material", owners,
             {.unit = "", .convention = "row of materials/name"});
   out.write_texts("materials/parameter_name", keys);
@@ -133,6 +138,7 @@ void write_particles(FieldWriter& out, const ParticleSet& p) {
 ParticleSet read_particles(const FieldReader& in) {
   ParticleSet p;
   p.dim = in.read_one<std::int32_t>("dim");
+  p.toe = in.read<double>("toe", 1, Nan::allowed)[0];
   const std::size_t n = in.rows("particles/position");
   visit_fields(p, [&in, n](std::string_view name, auto, auto& array) {
     using T = typename std::decay_t<decltype(array)>::value_type;
@@ -146,8 +152,9 @@ ParticleSet read_particles(const FieldReader& in) {
   const std::vector<std::string> names = in.read_texts("materials/name");
   const std::vector<std::string> laws = in.read_texts("materials/law", names.size());
   const auto counts = in.read<std::uint8_t>("materials/counts_for_runout", names.size());
+  const auto liquefied = in.read<std::uint8_t>("materials/liquefied", names.size());
   for (std::size_t i = 0; i < names.size(); ++i)
-    p.materials.push_back({names[i], laws[i], {}, counts[i] != 0});
+    p.materials.push_back({names[i], laws[i], {}, counts[i] != 0, liquefied[i] != 0});
   const auto owners = in.read<std::int32_t>("materials/parameter_material");
   const auto keys = in.read_texts("materials/parameter_name", owners.size());
   const auto values = in.read<double>("materials/parameter_value", owners.size());
@@ -173,7 +180,7 @@ void write_particles(const std::filesystem::path& path, const ParticleSet& p) {
 }
 
 ParticleSet read_particles(const std::filesystem::path& path) {
-  return read_particles(FieldReader(path, kKind, kFormat));
+  return read_particles(FieldReader(path, kKind, kFormat, kOldest));
 }
 
 }  // namespace flowslide

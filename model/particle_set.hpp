@@ -1,4 +1,6 @@
 #pragma once
+#include "core/check.hpp"
+
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -17,10 +19,13 @@ struct MaterialSpec {
   std::string law;                           ///< name of the law in constitutive/materials.hpp
   std::map<std::string, double> parameters;  ///< SI, keys as in the law's schema
   bool counts_for_runout = true;             ///< false for the foundation
+  bool liquefied = false;                    ///< soil that had liquefied at the transfer
 };
 
 struct ParticleSet {
   int dim = 2;
+  /// Datum of the runout: x of the downstream end of the soil that counts, before deformation [m].
+  double toe = kUnset;
   std::vector<std::array<double, 3>> position;      ///< [m]; third component 0 in plane strain
   std::vector<std::array<double, 3>> velocity;      ///< [m/s]
   std::vector<std::array<double, 3>> displacement;  ///< [m] since the undeformed section

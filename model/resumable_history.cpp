@@ -41,6 +41,7 @@ struct ResumableHistoryWriter::Impl {
   std::filesystem::path path;
   PartsFolder folder;
   QuadMesh mesh;
+  std::vector<HistoryMaterial> materials;
   HistoryOrigin origin;
   FemFrame gravity;
   AppendFile frames;
@@ -52,14 +53,18 @@ struct ResumableHistoryWriter::Impl {
 };
 
 ResumableHistoryWriter::ResumableHistoryWriter(const std::filesystem::path& path,
-                                               const QuadMesh& mesh, const HistoryOrigin& origin,
-                                               const FemFrame& gravity, std::size_t frames) {
+                                               const QuadMesh& mesh,
+                                               const std::vector<HistoryMaterial>& materials,
+                                               const HistoryOrigin& origin, const FemFrame& gravity,
+                                               std::size_t frames) {
+  check(mesh, materials);
   PartsFolder folder(path, frames == 0);
   const std::size_t doubles = record_doubles(mesh);
   impl_.reset(
       new Impl{.path = path,
                .folder = folder,
                .mesh = mesh,
+               .materials = materials,
                .origin = origin,
                .gravity = gravity,
                .frames = AppendFile(folder / "frames.bin", doubles * sizeof(double), frames),
@@ -111,7 +116,7 @@ void ResumableHistoryWriter::flush() { impl_->frames.sync(); }
 
 void ResumableHistoryWriter::finish() {
   const std::filesystem::path joined = impl_->folder / "joined.h5";
-  FemHistoryWriter out(joined, impl_->mesh, impl_->origin);
+  FemHistoryWriter out(joined, impl_->mesh, impl_->materials, impl_->origin);
   out.set_gravity(impl_->gravity);
   for (std::size_t i = 0; i < impl_->frames.size(); ++i) out.append(frame(i));
   out.finish();

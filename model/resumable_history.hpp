@@ -12,7 +12,8 @@ class ResumableHistoryWriter {
  public:
   /// @param frames already there and kept; 0 starts anew
   ResumableHistoryWriter(const std::filesystem::path& path, const QuadMesh& mesh,
-                         const HistoryOrigin& origin, const FemFrame& gravity, std::size_t frames);
+                         const std::vector<HistoryMaterial>& materials, const HistoryOrigin& origin,
+                         const FemFrame& gravity, std::size_t frames);
   ~ResumableHistoryWriter();
   ResumableHistoryWriter(const ResumableHistoryWriter&) = delete;
   ResumableHistoryWriter& operator=(const ResumableHistoryWriter&) = delete;

@@ -16,8 +16,11 @@ struct ZoneHistory {
   std::vector<std::string> window_names;     ///< "crest", "pond", ...
   std::vector<std::vector<double>> depth;    ///< [window][time] instantaneous depth of liquefaction [m]
   std::vector<std::vector<double>> depth_max;  ///< the same, running maximum [m]
+  std::vector<std::vector<double>> depth_any;  ///< of the lowest node above the threshold [m]
+  std::vector<std::vector<double>> depth_interpolated;  ///< where r_u passes the threshold [m]
   std::vector<double> kinetic_energy;           ///< per metre of width, absolute velocity [J/m]
   std::vector<double> kinetic_energy_relative;  ///< the same, velocity relative to the base [J/m]
+  std::vector<double> sliding_energy;     ///< of the velocity averaged over a while [J/m]
   std::vector<double> distortion_gauss;   ///< Q with the smallest of the 2x2 Gauss-point Jacobians [-]
   std::vector<double> distortion_centre;  ///< Q with the Jacobian at the centre, the area ratio [-]
 };
@@ -35,6 +38,12 @@ struct LiquefactionZone {
   std::vector<Vec2> lower_boundary;     ///< polyline under the zone from upstream to downstream [m]
   std::vector<std::string> window_names;
   std::vector<double> window_depth_max;  ///< largest depth in each window up to the transfer [m]
+  std::vector<double> window_depth_any;           ///< the same by single nodes [m]
+  std::vector<double> window_depth_interpolated;  ///< the same between nodes [m]
+  std::vector<double> window_depth_strong;        ///< largest until the end of strong shaking [m]
+  std::vector<double> window_depth_before_slide;  ///< largest until the onset of failure [m]
+  double strong_shaking_end = 0.0;  ///< 95 % of the base's squared velocity have passed [s]
+  double onset_time = 0.0;          ///< of failure [s]; NaN if there was none up to the transfer
   ZoneHistory history;
   std::vector<std::string> notes;        ///< clamped values, skipped nodes, one line each
 };

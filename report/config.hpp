@@ -18,14 +18,13 @@ struct ReportConfig {
   std::string title = "Runout of the section";
   std::optional<double> toe;            ///< x of the toe of the undeformed section [m]
   double moved = 1.0;                   ///< displacement from which a point counts as failed [m]
+  double stood = 0.1;                   ///< largest displacement of a section that stood [m]
+  double flow_reach = 1.0;              ///< flowed: farthest displacement of the flow / height [-]
+  std::optional<double> pond;           ///< level of the pond, for the freeboard left [m]
   double mass_quantile = 0.005;         ///< share of the failed mass beyond the robust front [-]
-  double rest_kinetic = 1e-4;           ///< at rest: kinetic energy / its peak [-]
-  double rest_front = 0.1;              ///< front at rest: distance to its final place [m]
-  double rest_window = 5.0;             ///< front at rest: for how long at the end of the run [s]
   double energy_warning = 0.05;         ///< largest silent residual of the energy balance [-]
   double momentum_warning = 0.05;       ///< largest silent residual of the impulse balance [-]
   double mass_warning = 1e-9;           ///< largest silent relative error of mass [-]
-  std::string liquefied = "liquefied";  ///< materials whose name starts so are the liquefied ones
   std::map<std::string, ReportRegion> regions;
   bool figures = true;
   bool page = true;
@@ -51,24 +50,31 @@ struct Schema<ReportConfig> {
   static void describe(FieldVisitor& v, ReportConfig& c) {
     v.text("title", c.title, "first line of the report");
     v.quantity("toe", c.toe, Dim::length, {},
-               "x of the toe of the undeformed section; left out: the toe of the runout stage");
+               "x from which the runout counts; left out: the downstream end of the soil that "
+               "counts, before deformation");
     v.quantity("moved", c.moved, Dim::length, {.above = 0.0},
                "displacement from which a material point counts as failed");
+    v.quantity("stood", c.stood, Dim::length, {.above = 0.0},
+               "the section stood if less than 0.5 % of its mass moved farther, it deformed if "
+               "less moved farther than `moved`");
+    v.quantity("flow_reach", c.flow_reach, Dim::none, {.above = 0.0},
+               "it flowed if 0.5 % of the mass moved farther after the transfer than this many "
+               "heights of the section; else it slid");
+    v.quantity("pond", c.pond, Dim::length, {},
+               "level of the pond; left out: no freeboard is told");
     v.quantity("mass_quantile", c.mass_quantile, Dim::none, {.above = 0.0, .below = 0.5},
                "share of the failed mass that lies beyond the robust front");
-    v.quantity("rest_kinetic", c.rest_kinetic, Dim::none, {.above = 0.0, .below = 1.0},
-               "the flow is at rest when its kinetic energy stays below this share of the peak");
-    v.quantity("rest_front", c.rest_front, Dim::length, {.above = 0.0},
-               "the front is at rest when it stays this close to its final place");
-    v.quantity("rest_window", c.rest_window, Dim::time, {.above = 0.0},
-               "for how long at the end of the run the front has to stay there");
+    for (const char* key : {"rest_kinetic", "rest_front", "rest_window"})
+      v.moved(key,
+              "(the rule of rest comes with the runout) remove it, and write 'rest: {kinetic_share: "
+              "0.001, runout_change: 0.2 m, window: 5 s}' in mpm.run");
     v.quantity("energy_warning", c.energy_warning, Dim::none, {.above = 0.0},
                "residual of the energy balance from which the report warns");
     v.quantity("momentum_warning", c.momentum_warning, Dim::none, {.above = 0.0},
                "residual of the impulse balance from which the report warns");
     v.quantity("mass_warning", c.mass_warning, Dim::none, {.above = 0.0},
                "relative error of mass from which the report warns");
-    v.text("liquefied", c.liquefied, "materials whose name starts with this text are liquefied");
+    v.moved("liquefied", "(the points know which of them had liquefied) remove it");
     v.table("regions", c.regions, "parts of the undeformed section to report by name");
     v.flag("figures", c.figures, "draw the figures (needs python3 with matplotlib)");
     v.flag("page", c.page, "write report.html, the interactive page of the run");

@@ -34,13 +34,6 @@ Movement movement(const std::string& name, const ParticleSet& p, const FinalStat
   return m;
 }
 
-/// The toe the runout stage used, from a sample in which the front had passed it.
-double toe_of(const std::vector<MpmSample>& samples) {
-  for (const MpmSample& s : samples)
-    if (s.runout > 0.0) return s.front - s.runout;
-  return kUnset;
-}
-
 double y_quantile(std::vector<Weighted> points, double share) {
   std::sort(points.begin(), points.end(),
             [](const Weighted& a, const Weighted& b) { return a.x < b.x; });
@@ -105,7 +98,7 @@ void add_movements(ReportFacts& f, const ParticleSet& p, const FinalState& end,
   }
 }
 
-void add_rest(ReportFacts& f, const std::vector<MpmSample>& samples, const ReportConfig& config) {
+void add_rest(ReportFacts& f, const std::vector<MpmSample>& samples, const RestRule& rule) {
   f.duration = samples.back().time - samples.front().time;
   double peak = 0.0;
   for (const MpmSample& s : samples) {
@@ -115,15 +108,15 @@ void add_rest(ReportFacts& f, const std::vector<MpmSample>& samples, const Repor
   }
   for (const double v : front_speed(samples)) f.peak_front_speed = std::max(f.peak_front_speed, v);
   for (auto s = samples.rbegin(); s != samples.rend(); ++s) {
-    if (!(s->kinetic <= config.rest_kinetic * peak)) break;
+    if (!(s->kinetic <= rule.kinetic_share * peak)) break;
     f.time_at_rest = s->time;
   }
   double since = kUnset;
   for (auto s = samples.rbegin(); s != samples.rend(); ++s) {
-    if (!(std::abs(s->front - samples.back().front) <= config.rest_front)) break;
+    if (!(std::abs(s->front - samples.back().front) <= rule.runout_change)) break;
     since = s->time;
   }
-  if (samples.back().time - since >= config.rest_window) f.front_at_rest = since;
+  if (samples.back().time - since >= rule.window) f.front_at_rest = since;
   f.points_left = samples.back().points_left;
   f.mass_left = samples.back().mass_left;
   f.energy_error = samples.back().energy_error;
@@ -196,7 +189,7 @@ ReportFacts compute_facts(const LiquefactionZone& zone, const MpmHistory& flow,
   const ParticleSet& p = flow.initial();
   const std::vector<MpmSample>& samples = flow.samples();
   ReportFacts f;
-  f.toe = config.toe ? *config.toe : toe_of(samples);
+  f.toe = config.toe.value_or(p.toe);
   f.transfer_time = zone.transfer_time;
   validate(zone.window_names.size() == zone.window_depth_max.size(),
            "the zone has {} windows but {} depths (each window has one) rebuild the zone",
@@ -206,8 +199,10 @@ ReportFacts compute_facts(const LiquefactionZone& zone, const MpmHistory& flow,
   add_fronts(f, p, end, config);
   add_volumes(f, p, flow.frame(flow.num_frames() - 1), end, config);
   add_movements(f, p, end, config);
-  add_rest(f, samples, config);
-  add_warnings(f, p, end, samples, config);
+  add_rest(f, samples, flow.rest());
+  f.composition = composition(p, end, f.toe);
+  f.outcome = outcome_facts(p, end, config);
+  add_warnings(f, p, end, samples, flow.rest(), config);
   return f;
 }
 

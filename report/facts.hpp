@@ -3,7 +3,9 @@
 #include "model/mpm_history.hpp"
 #include "model/particle_set.hpp"
 #include "model/zone.hpp"
+#include "report/composition.hpp"
 #include "report/config.hpp"
+#include "report/outcome.hpp"
 
 #include <cstdint>
 #include <string>
@@ -37,7 +39,7 @@ struct Movement {
 };
 
 struct ReportFacts {
-  double toe = kUnset;             ///< x [m]; unset if not given and never passed
+  double toe = kUnset;             ///< x from which the runout counts [m]
   double runout = 0.0;             ///< [m] fifth-farthest point past the toe
   double front = kUnset;           ///< x of the fifth-farthest point [m]
   double front_mass = kUnset;      ///< x beyond which mass_quantile of the failed mass lies [m]
@@ -60,6 +62,9 @@ struct ReportFacts {
   double mass_error = 0.0;              ///< largest, relative
   double energy_error = 0.0;            ///< at the end, residual / work of gravity
   double momentum_error = 0.0;          ///< at the end, residual / impulse of gravity
+  Composition composition;
+  OutcomeFacts outcome;
+  std::vector<std::pair<double, double>> zone_shares;  ///< of zone_shares()
   std::vector<Movement> materials;
   std::vector<Movement> regions;
   std::vector<std::string> warnings;  ///< what an engineer must know before using the numbers
@@ -74,7 +79,8 @@ ReportFacts compute_facts(const LiquefactionZone& zone, const MpmHistory& flow,
 
 /// Fills facts.warnings; compute_facts calls it last.
 void add_warnings(ReportFacts& facts, const ParticleSet& initial, const FinalState& end,
-                  const std::vector<MpmSample>& samples, const ReportConfig& config);
+                  const std::vector<MpmSample>& samples, const RestRule& rest,
+                  const ReportConfig& config);
 
 /// JSON object with units in its keys: runout_m, liquefaction_depth_<window>_m, transfer_time_s,
 /// mass_error, ... A number that is unset becomes null.

@@ -50,17 +50,18 @@ void warn_about_upstream_end(ReportFacts& f, const ParticleSet& p, const FinalSt
 }  // namespace
 
 void add_warnings(ReportFacts& f, const ParticleSet& p, const FinalState& end,
-                  const std::vector<MpmSample>& samples, const ReportConfig& config) {
+                  const std::vector<MpmSample>& samples, const RestRule& rest,
+                  const ReportConfig& config) {
   if (!is_set(f.time_at_rest) && !is_set(f.front_at_rest))
     f.warnings.push_back(fmt::format(
         "The run was stopped before rest: after {:.4g} s the kinetic energy was still above {:.2g} "
         "of its peak and the front was still moving. The final runout is larger; raise `end` of "
         "the flow stage.",
-        f.duration, config.rest_kinetic));
+        f.duration, rest.kinetic_share));
   warn_about_balances(f, config);
   warn_about_outlet(f, p);
   const MpmSample& last = samples.back();
-  if (!(std::abs(last.front - f.front) <= config.rest_front))
+  if (!(std::abs(last.front - f.front) <= rest.runout_change))
     f.warnings.push_back(fmt::format(
         "The last frame (t = {:.4g} s) puts the front at x = {:.2f} m, the time series (t = {:.4g} "
         "s) at x = {:.2f} m. This report uses the frame.",
@@ -72,8 +73,7 @@ void add_warnings(ReportFacts& f, const ParticleSet& p, const FinalState& end,
         f.runout, f.runout_mass, 100.0 * config.mass_quantile));
   if (!is_set(f.toe))
     f.warnings.emplace_back(
-        "No toe was given and the flow stage measured no runout, so the report has none. Give "
-        "`toe`.");
+        "No soil that counts has a downstream end, so the report has no runout. Give `toe`.");
   warn_about_upstream_end(f, p, end);
 }
 

@@ -1,6 +1,7 @@
 #include "report/markdown.hpp"
 
 #include "report/audit_table.hpp"
+#include "report/markdown_outcome.hpp"
 #include "report/told_run.hpp"
 
 #include <algorithm>
@@ -21,47 +22,6 @@ std::string list(const std::vector<std::string>& items) {
   std::string out;
   for (const std::string& item : items) out += fmt::format("- {}\n", cell(item));
   return out + "\n";
-}
-
-std::string number(double value, int decimals, std::string_view unit) {
-  if (!is_set(value)) return "-";
-  return fmt::format("{:.{}f}{}{}", value, decimals, unit.empty() ? "" : " ", unit);
-}
-
-std::string summary(const ReportFacts& f, const ReportConfig& c) {
-  std::string out;
-  if (f.failed_volume <= 0.0)
-    return fmt::format(
-        "**Nothing failed.** No point of the materials that count moved by more than {:g} m.\n\n",
-        c.moved);
-  if (f.runout > 0.0)
-    out = fmt::format("**The flow passed the toe and ran out {:.1f} m** (front at x = {:.1f} m). ",
-                      f.runout, f.front);
-  else if (!is_set(f.toe))
-    out = fmt::format(
-        "**The section failed; without a toe there is no runout** (front at x = {:.1f} m). ",
-        f.front);
-  else
-    out = fmt::format(
-        "**The section failed but its front did not pass the toe: the runout is 0 m** (front at x "
-        "= {:.1f} m, {:.1f} m short of the toe). ",
-        f.front, f.toe - f.front);
-  out += fmt::format(
-      "{:.0f} m3 per metre of width ({:.0f} % of the materials that count) moved by "
-      "more than {:g} m; ",
-      f.failed_volume, f.failed_percent, c.moved);
-  out += fmt::format("the deepest of it lay at y = {:.1f} m. ", f.deepest_failed);
-  if (f.runout > 0.0)
-    out += fmt::format("{:.0f} m3 per metre came to lie beyond the toe. ", f.volume_past_toe);
-  out += fmt::format("The fastest point reached {:.1f} m/s, the front {:.1f} m/s. ", f.peak_speed,
-                     f.peak_front_speed);
-  if (is_set(f.front_at_rest))
-    out += fmt::format("The front came to rest {:.1f} s after the transfer.", f.front_at_rest);
-  else if (is_set(f.time_at_rest))
-    out += fmt::format("The flow came to rest {:.1f} s after the transfer.", f.time_at_rest);
-  else
-    out += "**The flow had not come to rest when the run ended.**";
-  return out + "\n\n";
 }
 
 std::string_view verdict(const Movement& m) {
@@ -85,13 +45,21 @@ std::string movements(const std::vector<Movement>& list, std::string_view kind, 
 }
 
 std::string key_numbers(const ReportFacts& f, const ReportConfig& c) {
-  Rows rows{{"runout (fifth-farthest point past the toe)",
-             number(is_set(f.toe) ? f.runout : kUnset, 2, "m")},
-            {fmt::format("runout leaving out {:g} % of the failed mass", 100.0 * c.mass_quantile),
-             number(f.runout_mass, 2, "m")},
-            {"toe, x", number(f.toe, 2, "m")},
-            {"front, x (fifth-farthest point)", number(f.front, 2, "m")},
-            {"farthest point, x", number(f.front_farthest, 2, "m")}};
+  Rows rows{
+      {"runout (fifth-farthest point past the toe)",
+       number(is_set(f.toe) ? f.runout : kUnset, 2, "m")},
+      {fmt::format("runout leaving out {:g} % of the failed mass", 100.0 * c.mass_quantile),
+       number(f.runout_mass, 2, "m")},
+      {"the same of equal mass: 5 of the 7,400 points of the case study",
+       number(past_toe(f, f.composition.fronts.equal_mass), 2, "m")},
+      {"runout leaving out 0.5, 1, 5 % of the mass that counts",
+       fmt::format("{}, {}, {}", number(past_toe(f, f.composition.fronts.q995), 2, "m"),
+                   number(past_toe(f, f.composition.fronts.q99), 2, "m"),
+                   number(past_toe(f, f.composition.fronts.q95), 2, "m"))},
+      {"height at the end, y leaving out 0.5 % of the mass", number(f.composition.height, 2, "m")},
+      {"toe, x", number(f.toe, 2, "m")},
+      {"front, x (fifth-farthest point)", number(f.front, 2, "m")},
+      {"farthest point, x", number(f.front_farthest, 2, "m")}};
   for (const auto& [window, depth] : f.liquefaction_depth)
     rows.emplace_back("depth of liquefaction, " + window, number(depth, 2, "m"));
   rows.insert(
@@ -105,6 +73,7 @@ std::string key_numbers(const ReportFacts& f, const ReportConfig& c) {
        {"failed volume", number(f.failed_volume, 1, "m3/m")},
        {"failed share of the counted volume", number(f.failed_percent, 1, "%")},
        {"volume beyond the toe", number(f.volume_past_toe, 1, "m3/m")},
+       {"mass beyond the toe", number(f.composition.mass_past_toe, 0, "kg/m")},
        {"deepest failed point, undeformed y", number(f.deepest_failed, 2, "m")},
        {fmt::format("the same leaving out {:g} % of the failed mass", 100.0 * c.mass_quantile),
         number(f.deepest_failed_mass, 2, "m")},
@@ -125,7 +94,7 @@ std::string figures(const DrawnFigures& drawn) {
   return out;
 }
 
-std::string liquefaction(const ReportInputs& in) {
+std::string liquefaction(const ReportInputs& in, const ReportFacts& f) {
   const LiquefactionZone& zone = in.zone;
   const auto elements = std::count(zone.liquefied.begin(), zone.liquefied.end(), 1);
   double area_liquefied = 0.0;
@@ -139,9 +108,23 @@ std::string liquefaction(const ReportInputs& in) {
                         zone.transfer_time, zone.transfer_frame + 1, in.history.times().size());
   out += fmt::format("Reason: {}\n\nThe liquefied zone has {} elements, {:.0f} m2.\n\n",
                      cell(zone.transfer_reason), elements, area_liquefied);
+  out += zone_shares_markdown(f);
   Rows rows;
-  for (std::size_t w = 0; w < zone.window_names.size(); ++w)
-    rows.emplace_back(zone.window_names[w], number(zone.window_depth_max[w], 2, "m"));
+  const auto add_depths = [&rows, &zone](const std::string& rule,
+                                         const std::vector<double>& depth) {
+    for (std::size_t w = 0; w < depth.size(); ++w)
+      rows.emplace_back(zone.window_names[w] + rule, number(depth[w], 2, "m"));
+  };
+  add_depths(", up to the transfer", zone.window_depth_max);
+  add_depths(", where r_u passes the threshold between nodes", zone.window_depth_interpolated);
+  add_depths(", the lowest single node", zone.window_depth_any);
+  if (zone.transfer_frame >= 0) {
+    add_depths(fmt::format(", until strong shaking ends ({:.1f} s)", zone.strong_shaking_end),
+               zone.window_depth_strong);
+    if (is_set(zone.onset_time))
+      add_depths(fmt::format(", before the slide ({:.1f} s)", zone.onset_time),
+                 zone.window_depth_before_slide);
+  }
   if (!rows.empty()) out += table("window", "largest depth of liquefaction", rows);
   if (!zone.notes.empty()) out += "Notes on the zone:\n\n" + list(zone.notes);
   out += fmt::format("Shaking read from: {}. Out-of-plane stress: {}.\n\n",
@@ -151,28 +134,31 @@ std::string liquefaction(const ReportInputs& in) {
   return out;
 }
 
-std::string definitions(const ReportConfig& c) {
+std::string definitions(const ReportConfig& c, const RestRule& rest) {
   return fmt::format(
       "- Plane strain; volumes, masses and energies are per metre of width.\n"
       "- Runout: x of the fifth-farthest material point of the materials that count (all but the "
       "foundation) minus x of the toe of the undeformed section, at least 0.\n"
-      "- Displacement: from the undeformed section, shaking and flow together. Failed: moved by "
-      "more than {:g} m.\n"
+      "- Displacement: from the undeformed section; of the shaking up to the transfer, of the flow "
+      "after it. Failed: moved by more than {0:g} m in both together.\n"
+      "- Stood: less than 0.5 % of the mass moved more than {4:g} m. Deformed: less than {0:g} m. "
+      "Slid: the flow carried less than 0.5 % of the mass farther than {5:g} x the height of the "
+      "section. Flowed: farther. Crest: the downstream edge of the highest ground.\n"
       "- Depth of liquefaction: of the deepest node in a window whose pore-pressure ratio r_u "
       "exceeds the threshold of the zone stage, below its datum; largest value up to the "
       "transfer.\n"
-      "- At rest: the front stays within {:g} m of its final place for the last {:g} s, or the "
-      "kinetic energy stays below {:g} of its peak.\n"
+      "- At rest: the front stays within {1:g} m of its final place for the last {2:g} s, or the "
+      "kinetic energy stays below {3:g} of its peak.\n"
       "- Balance errors: at the end of the run; of mass the largest. The energy error contains "
       "what "
       "the time integration and the transfer between points and grid lost unaccounted for.\n\n",
-      c.moved, c.rest_front, c.rest_window, c.rest_kinetic);
+      c.moved, rest.runout_change, rest.window, rest.kinetic_share, c.stood, c.flow_reach);
 }
 
 }  // namespace
 
 std::string report_summary(const ReportFacts& facts, const ReportConfig& config) {
-  return summary(facts, config);
+  return summary_markdown(facts, config);
 }
 
 std::vector<std::string> all_warnings(const ReportInputs& in, const ReportFacts& f) {
@@ -188,11 +174,13 @@ std::vector<ReportSection> report_sections(const ReportInputs& in, const ReportC
   std::vector<ReportSection> sections{
       {"How sure, why, and what would change it", told_judgement(in, c, f, end)},
       {"Key numbers", key_numbers(f, c)},
+      {"What became of the section", outcome_markdown(f, c)},
+      {"What leads the flow", foremost_markdown(f)},
       {"What failed and what stayed", moved},
-      {"Liquefied zone and transfer time", liquefaction(in)},
+      {"Liquefied zone and transfer time", liquefaction(in, f)},
       {"What was computed", told_inputs(in)},
       {"Audit of the transfer", audit_tables(in.audit)},
-      {"Definitions", definitions(c)}};
+      {"Definitions", definitions(c, in.flow.rest())}};
   Rows run = in.provenance;
   if (!in.date.empty()) run.insert(run.begin(), {"date of this report", in.date});
   if (!run.empty()) sections.push_back({"What was run", table("item", "value", run)});
@@ -201,7 +189,7 @@ std::vector<ReportSection> report_sections(const ReportInputs& in, const ReportC
 
 std::string report_markdown(const ReportInputs& in, const ReportConfig& c, const ReportFacts& f,
                             const FinalState& end, const DrawnFigures& drawn) {
-  std::string out = fmt::format("# {}\n\n", cell(c.title)) + summary(f, c);
+  std::string out = fmt::format("# {}\n\n", cell(c.title)) + summary_markdown(f, c);
   const std::vector<std::string> warnings = all_warnings(in, f);
   if (!warnings.empty()) out += "## Read this before using the numbers\n\n" + list(warnings);
   out += "## Figures\n\n" + figures(drawn);

@@ -66,9 +66,8 @@ void write_plot_data(const std::filesystem::path& folder, const FemHistory& hist
     j["windows"].push_back({{"name", name}, {"column", column_name(name)}});
   j["materials"] = Json::array();
   for (const MaterialSpec& m : p.materials)
-    j["materials"].push_back({{"name", m.name},
-                              {"counts", m.counts_for_runout},
-                              {"liquefied", m.name.starts_with(config.liquefied)}});
+    j["materials"].push_back(
+        {{"name", m.name}, {"counts", m.counts_for_runout}, {"liquefied", m.liquefied}});
   j["soils"] = Json::array();
   for (const auto& [tag, name] : soil_names(stages))
     j["soils"].push_back({{"tag", tag}, {"name", name}});

@@ -29,8 +29,9 @@ ReportFacts write_report(const ReportInputs& in, const ReportConfig& config,
                          const std::filesystem::path& out, const Progress& progress) {
   const FinalState end = final_state(in.particles, in.flow, config);
   ReportFacts facts = compute_facts(in.zone, in.flow, end, config);
+  facts.zone_shares = zone_shares(in.history.mesh(), in.zone);
   make_folder(out / "data");
-  write_file(out / "runout.csv", runout_csv(in.flow.samples()));
+  write_file(out / "runout.csv", runout_csv(in.flow.samples(), facts.toe));
   write_file(out / "zone.csv", zone_csv(in.zone.history));
   write_plot_data(out / "data", in.history, in.zone, in.flow, end, facts, config, in.stages);
   DrawnFigures drawn;

@@ -1,4 +1,6 @@
 #pragma once
+#include "model/front.hpp"
+
 #include <array>
 #include <cstdint>
 #include <span>
@@ -7,9 +9,6 @@
 /// and Kumar 2025, Soil Dyn. Earthq. Eng. 194, 109371): "fifth-farthest material point from the
 /// toe". `counts` is 1 for points of materials that take part (all but the foundation).
 namespace flowslide {
-
-/// Rank of the point that marks the front: a handful of detached points must not.
-inline constexpr std::size_t kFrontRank = 5;
 
 /// x of the fifth-farthest counted point [m]. Throws InputError if there are fewer than five, if
 /// the arrays differ in length or if a position is not finite.

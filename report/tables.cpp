@@ -3,6 +3,7 @@
 #include "core/check.hpp"
 #include "report/facts.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <utility>
 
@@ -25,7 +26,7 @@ std::string column_name(std::string_view name) {
   return out;
 }
 
-std::string runout_csv(const std::vector<MpmSample>& samples) {
+std::string runout_csv(const std::vector<MpmSample>& samples, double toe) {
   // The speed of the front stands beside the front.
   const auto ends_place = [](const SampleColumn& c) { return c.value == &MpmSample::front; };
   std::string out;
@@ -37,7 +38,10 @@ std::string runout_csv(const std::vector<MpmSample>& samples) {
   const std::vector<double> speed = front_speed(samples);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     for (const SampleColumn& c : kSampleColumns) {
-      out += fmt::format("{}{}", &c == kSampleColumns.data() ? "" : ",", samples[i].*c.value);
+      const bool counts_anew = c.value == &MpmSample::runout && is_set(toe);
+      const double value =
+          counts_anew ? std::max(0.0, samples[i].front - toe) : samples[i].*c.value;
+      out += fmt::format("{}{}", &c == kSampleColumns.data() ? "" : ",", value);
       if (ends_place(c)) out += fmt::format(",{}", speed[i]);
     }
     out += '\n';
@@ -47,16 +51,21 @@ std::string runout_csv(const std::vector<MpmSample>& samples) {
 
 std::string zone_csv(const ZoneHistory& h) {
   std::vector<std::pair<std::string, const std::vector<double>*>> columns{{"time_s", &h.time}};
-  validate(h.depth.size() == h.window_names.size() && h.depth_max.size() == h.window_names.size(),
+  validate(h.depth.size() == h.window_names.size() && h.depth_max.size() == h.window_names.size() &&
+               h.depth_any.size() == h.window_names.size() &&
+               h.depth_interpolated.size() == h.window_names.size(),
            "the zone's history has {} windows but {} depths (each window has one) rebuild the zone",
            h.window_names.size(), h.depth.size());
   for (std::size_t w = 0; w < h.window_names.size(); ++w) {
     const std::string name = column_name(h.window_names[w]);
     columns.emplace_back("depth_" + name + "_m", &h.depth[w]);
     columns.emplace_back("depth_max_" + name + "_m", &h.depth_max[w]);
+    columns.emplace_back("depth_any_node_" + name + "_m", &h.depth_any[w]);
+    columns.emplace_back("depth_interpolated_" + name + "_m", &h.depth_interpolated[w]);
   }
   columns.emplace_back("kinetic_energy_J_per_m", &h.kinetic_energy);
   columns.emplace_back("kinetic_energy_relative_J_per_m", &h.kinetic_energy_relative);
+  columns.emplace_back("sliding_energy_J_per_m", &h.sliding_energy);
   columns.emplace_back("distortion_gauss", &h.distortion_gauss);
   columns.emplace_back("distortion_centre", &h.distortion_centre);
   std::string out;

@@ -10,8 +10,9 @@
 /// shortest form that reads back to the same double, "nan" for unset.
 namespace flowslide {
 
-/// time_s, runout_m, front_m, front_speed_m_s, ..., energies in J per metre of width.
-std::string runout_csv(const std::vector<MpmSample>& samples);
+/// time_s, runout_m, front_m, front_speed_m_s, ..., energies in J per metre of width. The runout
+/// counts from `toe` [m]; unset: as the run counted it.
+std::string runout_csv(const std::vector<MpmSample>& samples, double toe);
 
 /// time_s, depth_<window>_m and depth_max_<window>_m of every window, kinetic energies, distortion
 /// Q.

@@ -189,7 +189,10 @@ std::vector<Measurement> measure_dam() {
   const SectionMesh mesh = dam(kSavingsAt, kLeft);
   FemConfig careful = settings();
   careful.courant = 0.1;
-  for (auto& [name, m] : careful.materials) m.laws.of<PM4Sand>()->tolerance = 1e-6;
+  for (auto& [name, m] : careful.materials) {
+    m.laws.of<PM4Sand>()->max_strain_increment = 1e-5;
+    m.laws.of<PM4Sand>()->tolerance = 1e-6;
+  }
   const Outcome exact = shake(mesh, careful);
   const auto with = [&](const std::string& name, const SectionMesh& section,
                         const std::function<void(FemConfig&)>& change) {
@@ -201,15 +204,17 @@ std::vector<Measurement> measure_dam() {
   with("default", mesh, [](FemConfig&) {});
   with("courant 0.25", mesh, [](FemConfig& c) { c.courant = 0.25; });
   with("courant 0.9", mesh, [](FemConfig& c) { c.courant = 0.9; });
-  with("tolerance 1e-3", mesh, [](FemConfig& c) {
-    for (auto& [name, m] : c.materials) m.laws.of<PM4Sand>()->tolerance = 1e-3;
-  });
-  with("increment 1, tolerance 1e-3", mesh, [](FemConfig& c) {
-    for (auto& [name, m] : c.materials) {
-      m.laws.of<PM4Sand>()->tolerance = 1e-3;
-      m.laws.of<PM4Sand>()->max_strain_increment = 1.0;
-    }
-  });
+  const auto strains = [&](double increment, double tolerance) {
+    with(fmt::format("increment {:.0e}, tolerance {:.0e}", increment, tolerance), mesh,
+         [&](FemConfig& c) {
+           for (auto& [name, m] : c.materials) {
+             m.laws.of<PM4Sand>()->max_strain_increment = increment;
+             m.laws.of<PM4Sand>()->tolerance = tolerance;
+           }
+         });
+  };
+  strains(1e-5, 1e-5);
+  strains(1.0, 1e-3);
   with("elastic foundation", mesh, [](FemConfig& c) {
     FemMaterialConfig& m = c.materials["foundation"];
     const Elasticity e = PM4Sand::gravity_elasticity(*m.laws.of<PM4Sand>(), 0.3);

@@ -63,14 +63,15 @@ Outcome shear(double increment, double tolerance, int repeats) {
     for (int call = 0; call < kCycles * kCallsPerCycle; ++call) {
       const double step = shear_strain(call + 1) - shear_strain(call);
       const StrainIncrement<2> de{{0.0, 0.0, 0.0, step}};
-      for (int i = 0; i < kPoints; ++i) {
-        const PM4Sand::Update u =
-            PM4Sand::update(points.constants, points.state[i], points.stress[i], de);
-        points.stress[i] = u.stress;
-        points.state[i] = u.state;
-        r.sub_steps += u.sub_steps;
-        r.rejected += u.rejected;
-      }
+      int next = 0;
+      const PM4Sand::Work w = PM4Sand::update_all([&](PM4Sand::Task& task) {
+        if (next == kPoints) return false;
+        task = {&points.constants, &points.state[next], &points.stress[next], de};
+        ++next;
+        return true;
+      });
+      r.sub_steps += w.sub_steps;
+      r.rejected += w.rejected;
       if (call % 20 != 0) continue;
       for (int i = 0; i < kPoints; ++i) {
         const Stress<2>& s = points.stress[i];

@@ -14,6 +14,7 @@ std::vector<BenchCase> mpm_benchmarks() {
        mpm::measure_quadratic<3>},
       {"mpm/3d/valley", "the dam as a valley of 73 m, two million points", mpm::measure_valley},
       {"mpm/curve", "error against processor time of bases and transfers", mpm::work_precision},
+      {"mpm/front", "error of a dry column's front against processor time", mpm::front_precision},
   };
 }
 

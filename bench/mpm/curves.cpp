@@ -51,7 +51,6 @@ Measurement point_of_line(BasisKind basis, std::string_view basis_name, const Li
   const ParticleSet p = bar(0.5 * cell);
   FlowConfig c;
   c.cell = cell;
-  c.toe = 0.0;
   c.end = 1.0;
   c.gravity = 0.0;
   c.ground.surface = {{0.0, -1e6}};

@@ -17,4 +17,7 @@ std::vector<Measurement> measure_valley();
 /// basis and transfer.
 std::vector<Measurement> work_precision();
 
+/// Error of a dry column's front against processor time, for each transfer of velocity.
+std::vector<Measurement> front_precision();
+
 }  // namespace flowslide::mpm

@@ -5,6 +5,7 @@
 #include "mpm/solver/checkpoint.hpp"
 #include "mpm/run/extrude.hpp"
 #include "mpm/run/load.hpp"
+#include "mpm/run/rest_forecast.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -33,7 +34,7 @@ void index_by_id(mpm::Simulation<Dim>& s, const ParticleSet& particles) {
     s.points.index[order[rank]] = static_cast<std::int32_t>(rank);
 }
 
-bool at_rest(const mpm::RunState& run, const MpmSample& now, const RestSettings& rest) {
+bool at_rest(const mpm::RunState& run, const MpmSample& now, const RestRule& rest) {
   if (now.time < rest.window || run.recent.empty()) return false;
   const auto [low, high] =
       std::minmax_element(run.recent.begin(), run.recent.end(),
@@ -133,9 +134,10 @@ struct Runout {
   bool elastic;              ///< all materials are
   MpmHistoryWriter history;
   MpmFrame frame{};
-  std::vector<double> front_scratch{};
+  std::vector<Place> front_scratch{};
   MpmSample last{.time = s.time};
   bool over = false, rests = false;
+  RestForecast forecast{};
 
   [[nodiscard]] bool ended() const { return over; }
   bool step() {
@@ -158,7 +160,12 @@ struct Runout {
     ++run.frames;
     pass_output(run.next_frame, s.time, config.frame_interval);
   }
-  [[nodiscard]] double share() const { return s.time / config.end; }
+  /// Until rest, as soon as it can be foreseen.
+  [[nodiscard]] Share share() const {
+    const auto rest = forecast.rest(run.peak_kinetic, config.rest.kinetic_share);
+    if (!rest) return {s.time / config.end, true};
+    return s.time / std::min(config.end, std::max(*rest, s.time) + config.rest.window);
+  }
   [[nodiscard]] std::string text() const {
     return fmt::format("t {:.1f} s, runout {:.1f} m, fastest {:.2f} m/s", s.time, last.runout,
                        std::sqrt(s.last.max_speed2));
@@ -175,6 +182,7 @@ struct Runout {
     pass_output(run.next_sample, s.time, config.sample_interval);
     hurry_frame(run, last, config);
     run.peak_kinetic = std::max(run.peak_kinetic, last.kinetic);
+    forecast.look(s.time, last.kinetic);
     run.recent.push_back({s.time, last.front});
     std::erase_if(run.recent, [&](const auto& r) { return r[0] < s.time - config.rest.window; });
     rests = at_rest(run, last, config.rest);
@@ -207,11 +215,11 @@ FlowFacts run_in(const ParticleSet& particles, const FlowConfig& config, const F
       .run = run,
       .config = config,
       .checkpoint = paths.checkpoint,
-      .reference = reference_of<Dim>(run, config.toe),
+      .reference = reference_of<Dim>(run, particles.toe),
       .counts = counts,
       .elastic = std::all_of(materials.begin(), materials.end(),
                              [](const auto& m) { return m.law == LinearElastic::name; }),
-      .history = MpmHistoryWriter(paths.history, particles, run.frames, run.samples)};
+      .history = MpmHistoryWriter(paths.history, particles, config.rest, run.frames, run.samples)};
   if (!resume) runout.store();
   const std::int64_t first_updates = run.updates;
   FlowFacts facts;
@@ -230,6 +238,9 @@ FlowFacts run_in(const ParticleSet& particles, const FlowConfig& config, const F
 
 FlowFacts run_flow(const ParticleSet& particles, const FlowConfig& config, const FlowPaths& paths,
                    int threads, const Progress& progress) {
+  validate(is_set(particles.toe),
+           "the points do not say from where the runout counts (no soil among them counts for it) "
+           "let a material count, or give them a toe");
   if (!config.extrude) return run_in<2>(particles, config, paths, threads, progress);
   FlowConfig valley = config;
   if (config.extrude->sides != Sides::open) valley.side_rollers = {0.0, config.extrude->width};

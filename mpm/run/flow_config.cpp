@@ -64,7 +64,7 @@ void Schema<SofteningSettings>::describe(FieldVisitor& v, SofteningSettings& c) 
              "cell size at which the softening strains hold as they are given");
 }
 
-void Schema<RestSettings>::describe(FieldVisitor& v, RestSettings& c) {
+void Schema<RestRule>::describe(FieldVisitor& v, RestRule& c) {
   v.quantity("kinetic_share", c.kinetic_share, Dim::none, {.min = 0.0, .max = 1.0},
              "kinetic energy below this share of its peak");
   v.quantity("runout_change", c.runout_change, Dim::length, {.min = 0.0},
@@ -139,8 +139,10 @@ void Schema<FlowConfig>::describe(FieldVisitor& v, FlowConfig& c) {
   static constexpr std::array<std::string_view, 2> averages{"auto", "off"};
   v.quantity("cell", c.cell, Dim::length, {.above = 0.0}, "size of the square grid cells");
   v.tuple("grid_origin", c.grid_origin, Dim::length, "position of a grid node");
-  v.quantity("toe", c.toe, Dim::length, {},
-             "x of the toe of the undeformed section; runout is counted from here");
+  v.moved("toe",
+          "(the runout counts from the downstream end of the soil that counts, which transfer.map "
+          "knows; it does not move the flow) remove it; a report that is to count from elsewhere "
+          "has 'uses: report.runout, with: {toe: 75 m}'");
   v.quantity("end", c.end, Dim::time, {.above = 0.0},
              "latest end; the run stops earlier when all is at rest");
   v.group("ground", c.ground, Schema<GroundSettings>::doc);
@@ -172,7 +174,7 @@ void Schema<FlowConfig>::describe(FieldVisitor& v, FlowConfig& c) {
            "once more (musl, one sweep more)");
   v.choice("volume_average", c.volume_average, averages,
            "F-bar against volumetric locking: auto averages materials with Poisson's ratio of 0.4 "
-           "or more");
+           "or more and no friction");
   v.quantity("gravity", c.gravity, Dim::acceleration, {.min = 0.0}, "acceleration of gravity");
   v.quantity("courant", c.courant, Dim::none, {.max = 1.0, .above = 0.0},
              "share of the stable time step");
@@ -183,7 +185,7 @@ void Schema<FlowConfig>::describe(FieldVisitor& v, FlowConfig& c) {
   v.quantity("damping", c.damping, Dim::none, {.min = 0.0, .below = 1.0},
              "local non-viscous damping factor (Cundall)");
   v.group("sleep", c.sleep, Schema<SleepSettings>::doc);
-  v.group("rest", c.rest, Schema<RestSettings>::doc);
+  v.group("rest", c.rest, Schema<RestRule>::doc);
   v.quantity("frame_interval", c.frame_interval, Dim::time, {.above = 0.0},
              "time between stored states");
   v.quantity("frame_travel", c.frame_travel, Dim::length, {.above = 0.0},

@@ -1,5 +1,6 @@
 #pragma once
 #include "config/schema.hpp"
+#include "model/rest_rule.hpp"
 #include "mpm/kernels/scheme.hpp"
 
 #include <array>
@@ -16,12 +17,6 @@ enum class Sides { smooth, rough, open };
 struct SofteningSettings {
   bool regularise = true;
   double reference_length = 1.25;  ///< [m]
-};
-
-struct RestSettings {
-  double kinetic_share = 1e-4;  ///< of the largest kinetic energy
-  double runout_change = 0.1;   ///< [m]
-  double window = 5.0;          ///< [s]
 };
 
 /// A height field in place of the ground's polyline, in three dimensions.
@@ -65,9 +60,9 @@ struct TractionSettings {
 
 /// Where and for how long the steps are taken, beside what is set about each of them.
 struct FlowConfig : mpm::StepSettings {
+  FlowConfig() { transfer = mpm::Transfer::aflip; }  ///< docs/adr/0009-transfer-of-velocity.md
   double cell = kUnset;                 ///< [m]
   std::array<double, 2> grid_origin{};  ///< [m]
-  double toe = kUnset;                  ///< x [m]
   double end = kUnset;                  ///< [s]
   GroundSettings ground;
   AbsorbingSettings absorbing;
@@ -81,7 +76,7 @@ struct FlowConfig : mpm::StepSettings {
   SofteningSettings softening;
   double gravity = 9.81;  ///< [m/s2]
   std::optional<SleepSettings> sleep;
-  RestSettings rest;
+  RestRule rest;
   double frame_interval = 5.0;    ///< [s]
   std::optional<double> frame_travel;  ///< [m]
   double sample_interval = 0.25;       ///< [s]
@@ -96,10 +91,10 @@ struct Schema<SofteningSettings> {
   static void describe(FieldVisitor& v, SofteningSettings& c);
 };
 template <>
-struct Schema<RestSettings> {
+struct Schema<RestRule> {
   static constexpr std::string_view doc =
       "When the flow counts as at rest; both conditions must hold.";
-  static void describe(FieldVisitor& v, RestSettings& c);
+  static void describe(FieldVisitor& v, RestRule& c);
 };
 template <>
 struct Schema<TerrainSettings> {

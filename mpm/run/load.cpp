@@ -14,6 +14,19 @@ constexpr double kAverageRatio = 4.6;
 /// Depth over which a traction is handed to the points [cells]: whole rows of any lattice.
 constexpr double kTractionDepth = 2.0;
 
+/// Whether pressure carries shear. Such soil keeps the pressure of its points: its deviator is
+/// bounded by that, and with the mean over a span as acting pressure it would flow where it can
+/// stand.
+template <class M>
+bool frictional(const typename M::Params& p) {
+  if constexpr (requires { p.mu_static; })
+    return true;
+  else if constexpr (requires { p.friction_angle; })
+    return p.friction_angle > 0.0;
+  else
+    return false;
+}
+
 SolverMaterial solver_material(const MaterialSpec& spec, const FlowConfig& config) {
   const double scale =
       config.softening.regularise ? config.cell / config.softening.reference_length : 1.0;
@@ -21,7 +34,7 @@ SolverMaterial solver_material(const MaterialSpec& spec, const FlowConfig& confi
       [&]<class M>(const Material<M>& m) {
         const Elasticity e = M::elasticity(m.params);
         return SolverMaterial{Typed<M>{M::constants(m.params, scale)}, e,
-                              e.bulk > kAverageRatio * e.shear};
+                              e.bulk > kAverageRatio * e.shear && !frictional<M>(m.params)};
       },
       from_parameters(spec.law, spec.parameters));
 }

@@ -11,16 +11,15 @@ class RestForecast {
  public:
   /// Kinetic energy [J] at a time later than the last [s].
   void look(double time, double kinetic);
-  /// Time at which the kinetic energy will have fallen to `share` of its peak [s]; empty before it
-  /// falls.
-  [[nodiscard]] std::optional<double> rest(double share) const;
+  /// Time at which the kinetic energy will have fallen from its peak [J] to `share` of it [s]; empty
+  /// before it falls.
+  [[nodiscard]] std::optional<double> rest(double peak, double share) const;
 
  private:
   struct Seen {
     double time, root;
   };
   std::vector<Seen> seen_;
-  double peak_ = 0.0;  ///< of the root
 };
 
 }  // namespace flowslide

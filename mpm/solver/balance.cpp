@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <span>
 
 namespace flowslide::mpm {
-
-/// The paper's runout rule: the fifth-farthest point, so that a few lone points do not decide.
-constexpr std::ptrdiff_t kFrontRank = 5;
 
 /// D of a point per direction [cells^2], with which its affine field carries energy.
 template <int Dim>
@@ -59,20 +56,26 @@ PointSums<Dim> sum_points(const Simulation<Dim>& s, const Points<Dim>& p) {
 
 namespace {
 
-/// Front and runout by the fifth-farthest point.
+/// Fronts, runout and height of what counts, with what left where it did.
 template <int Dim>
-void measure_front(const Simulation<Dim>& s, double toe, const std::vector<bool>& counts,
-                   std::vector<double>& scratch, MpmSample& r) {
-  scratch.clear();
-  for (const Points<Dim>* p : {&s.points, &s.gone})
-    for (std::size_t q = 0; q < p->size(); ++q)
-      if (counts[p->material[q]]) scratch.push_back(p->x[0][q]);
-  const auto rank = std::min<std::ptrdiff_t>(kFrontRank, std::ssize(scratch)) - 1;
-  if (rank >= 0) {
-    std::nth_element(scratch.begin(), scratch.begin() + rank, scratch.end(), std::greater<>());
-    r.front = scratch[rank];
-    r.runout = std::max(0.0, r.front - toe);
-  }
+void measure_extent(const Simulation<Dim>& s, double toe, const std::vector<bool>& counts,
+                    std::vector<Place>& scratch, MpmSample& r) {
+  const auto along = [&](int axis) -> std::span<Place> {
+    scratch.clear();
+    for (const Points<Dim>* p : {&s.points, &s.gone})
+      for (std::size_t q = 0; q < p->size(); ++q)
+        if (counts[p->material[q]]) scratch.push_back({p->x[axis][q], p->mass[q]});
+    return scratch;
+  };
+  const Fronts f = fronts(along(0));
+  if (scratch.empty()) return;
+  r.front = f.fifth;
+  r.runout = std::max(0.0, r.front - toe);
+  r.front_equal_mass = f.equal_mass;
+  r.front_995 = f.q995;
+  r.front_99 = f.q99;
+  r.front_95 = f.q95;
+  r.height = height(along(Dim - 1));
 }
 
 /// Where the energy has gone; docs/theory/mpm.md, section Balances.
@@ -120,7 +123,7 @@ double momentum_error(const Balance<Dim>& b, const PointSums<Dim>& start,
 
 template <int Dim>
 MpmSample sample(const Simulation<Dim>& s, const Reference<Dim>& reference,
-                 const std::vector<bool>& counts, std::vector<double>& scratch) {
+                 const std::vector<bool>& counts, std::vector<Place>& scratch) {
   const PointSums<Dim> now = sum_points(s), left = sum_points(s, s.gone);
   const PointSums<Dim>& start = reference.start;
   if (!now.finite) {
@@ -132,7 +135,7 @@ MpmSample sample(const Simulation<Dim>& s, const Reference<Dim>& reference,
   }
   MpmSample r;
   r.time = s.time;
-  measure_front(s, reference.toe, counts, scratch, r);
+  measure_extent(s, reference.toe, counts, scratch, r);
   balance_energy(s.balance, start, now, left, r);
   r.momentum_error = momentum_error(s.balance, start, now, left);
   r.mass_error = std::abs(now.mass + left.mass - start.mass) / start.mass;
@@ -152,8 +155,8 @@ MpmSample sample(const Simulation<Dim>& s, const Reference<Dim>& reference,
 template PointSums<2> sum_points<2>(const Simulation<2>&, const Points<2>&);
 template PointSums<3> sum_points<3>(const Simulation<3>&, const Points<3>&);
 template MpmSample sample<2>(const Simulation<2>&, const Reference<2>&, const std::vector<bool>&,
-                             std::vector<double>&);
+                             std::vector<Place>&);
 template MpmSample sample<3>(const Simulation<3>&, const Reference<3>&, const std::vector<bool>&,
-                             std::vector<double>&);
+                             std::vector<Place>&);
 
 }  // namespace flowslide::mpm

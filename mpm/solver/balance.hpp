@@ -1,4 +1,5 @@
 #pragma once
+#include "model/front.hpp"
 #include "model/mpm_history.hpp"
 #include "mpm/solver/simulation.hpp"
 
@@ -38,6 +39,6 @@ struct Reference {
 /// `scratch` is reused. Throws NumericsError if a point is not finite.
 template <int Dim>
 MpmSample sample(const Simulation<Dim>& s, const Reference<Dim>& reference,
-                 const std::vector<bool>& counts, std::vector<double>& scratch);
+                 const std::vector<bool>& counts, std::vector<Place>& scratch);
 
 }  // namespace flowslide::mpm

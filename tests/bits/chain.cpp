@@ -11,7 +11,7 @@
 #include "workflows/engine/runner.hpp"
 #include "workflows/stages/stage_list.hpp"
 
-namespace flowslide::bits {
+namespace flowslide::same_bits {
 namespace {
 
 std::string digest(const FemHistory& h) {
@@ -115,4 +115,4 @@ Lines chain(int threads) {
   return lines;
 }
 
-}  // namespace flowslide::bits
+}  // namespace flowslide::same_bits

@@ -3,7 +3,7 @@
 #include "tests/bits/scenes.hpp"
 #include "tests/mpm/scene.hpp"
 
-namespace flowslide::bits {
+namespace flowslide::same_bits {
 namespace {
 
 using namespace mpm;
@@ -79,7 +79,7 @@ ParticleSet block(const MaterialSpec& material) {
 FlowConfig settings() {
   FlowConfig c;
   c.cell = 0.5;
-  c.toe = 6.0;
+  c.transfer = Transfer::apic;
   c.end = 10.0;
   c.ground.surface = {{-10.0, 0.0}, {8.0, 0.0}, {20.0, -3.0}};
   c.ground.friction = 0.4;
@@ -92,13 +92,13 @@ std::string digest(const ParticleSet& p, const FlowConfig& c, int threads, int s
   Simulation<Dim> s = make_simulation<Dim>(p, c);
   StepScratch<Dim> scratch(threads);
   prepare(s, scratch, true);
-  const Reference<Dim> start{sum_points(s), c.toe};
+  const Reference<Dim> start{sum_points(s), 6.0};
   for (int i = 0; i < steps; ++i) advance(s, scratch);
   Digest d;
   visit_arrays(s.points, [&](auto& array) {
     for (const auto x : array) d.add(x);
   });
-  std::vector<double> buffer;
+  std::vector<Place> buffer;
   const MpmSample r = sample(s, start, std::vector<bool>(s.materials.size(), true), buffer);
   for (const double x : {r.time, r.runout, r.front, r.kinetic, r.gravity_work, r.strain_energy,
                          r.plastic_work, r.friction_work, r.damping_work, r.max_speed, r.dt})
@@ -155,4 +155,4 @@ Lines schemes(int threads) {
   return lines;
 }
 
-}  // namespace flowslide::bits
+}  // namespace flowslide::same_bits

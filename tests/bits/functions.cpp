@@ -6,7 +6,7 @@
 #include "tests/bits/digest.hpp"
 #include "tests/bits/scenes.hpp"
 
-namespace flowslide::bits {
+namespace flowslide::same_bits {
 namespace {
 
 /// f(x, y) over numbers of all sizes that matter.
@@ -64,4 +64,4 @@ Lines motions() {
   return lines;
 }
 
-}  // namespace flowslide::bits
+}  // namespace flowslide::same_bits

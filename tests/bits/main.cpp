@@ -9,7 +9,7 @@
 /// lines are the same on every processor and for any number of threads; those of the last change of
 /// results stand in fixtures/bits/digests.txt.
 int main(int count, char** arguments) {
-  using namespace flowslide::bits;
+  using namespace flowslide::same_bits;
   const int threads = count > 1 ? std::atoi(arguments[1]) : 1;
   if (threads < 1) {
     fmt::print(stderr, "usage: bits THREADS\n");

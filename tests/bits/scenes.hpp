@@ -5,7 +5,7 @@
 
 /// What has to have the same bits on every processor and for any number of threads. Each part gives
 /// lines of a name and a digest.
-namespace flowslide::bits {
+namespace flowslide::same_bits {
 
 struct Line {
   std::string name, digest;
@@ -18,4 +18,4 @@ Lines laws(int threads);      ///< blocks that collapse, one for every law, in t
 Lines schemes(int threads);   ///< the same for every shape function, transfer and update
 Lines chain(int threads);     ///< chain.yaml stage by stage, with explicit and implicit steps
 
-}  // namespace flowslide::bits
+}  // namespace flowslide::same_bits

@@ -194,7 +194,7 @@ TEST_CASE("check reads the files that the workflow names", "[cli]") {
 
   const auto zone = [](const std::string& windows) {
     return "  zone:\n    uses: transfer.zone\n    in: {history: shake.history}\n    with:\n"
-           "      {when: gravity, zone: all, liquefiable: [1], pond_surface: 1 m" +
+           "      {when: gravity, zone: all, liquefiable: [sand], pond_surface: 1 m" +
            windows + ", strength: {table: [[20 kPa, 2 kPa]]}}\n";
   };
   write_model(scratch);
@@ -216,11 +216,11 @@ TEST_CASE("check reads the files that the workflow names", "[cli]") {
 TEST_CASE("windows are those of the user, or the whole soil", "[cli]") {
   const Scratch scratch;
   write_model(scratch);
-  const Outcome o =
-      run(scratch, shake() +
-                       "  zone:\n    uses: transfer.zone\n    in: {history: shake.history}\n"
-                       "    with: {when: gravity, zone: all, liquefiable: [1], pond_surface: 1 m, "
-                       "strength: {table: [[20 kPa, 2 kPa]]}}\n");
+  const Outcome o = run(
+      scratch, shake() +
+                   "  zone:\n    uses: transfer.zone\n    in: {history: shake.history}\n"
+                   "    with: {when: gravity, zone: all, liquefiable: [sand], pond_surface: 1 m, "
+                   "strength: {table: [[20 kPa, 2 kPa]]}}\n");
   CHECK(o.code == 0);
   CHECK_THAT(o.out, Contains("liquefaction depth, all        1 m"));
 }
@@ -278,7 +278,7 @@ TEST_CASE("a section is drawn before anything runs", "[cli]") {
   CHECK(drawn.code == 0);
   CHECK_THAT(drawn.out, Contains("section.svg: 1849 elements, 2003 nodes"));
   const std::string svg = read_text_file(scratch / "section.svg");
-  CHECK_THAT(svg, Contains("<svg") && Contains("material 168 (") && Contains("runout begins here"));
+  CHECK_THAT(svg, Contains("<svg") && Contains("tailings (") && Contains("runout begins here"));
   CHECK_FALSE(std::filesystem::exists(scratch / "runs"));
   const Outcome other = call(scratch, "plot " + file + " --out section.bmp");
   CHECK(other.code == 2);

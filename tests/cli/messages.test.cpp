@@ -64,7 +64,7 @@ TEST_CASE("a missing recorder is named with its line and its folder", "[cli]") {
     const Outcome o = with(path);
     CHECK(o.code == 4);
     CHECK_THAT(o.err,
-               Contains("w.yaml:9:") && Contains("shake.with.gravity.stress") && Contains(reason));
+               Contains("w.yaml:10:") && Contains("shake.with.gravity.stress") && Contains(reason));
   }
   CHECK(with("stress.out").code == 0);
 }

@@ -67,6 +67,7 @@ inline void write_model(const Scratch& scratch) {
 inline std::string shake(const std::string& units = "{length: m, time: s, stress: kPa}") {
   return "  shake:\n    uses: import.opensees\n    with:\n"
          "      mesh: {nodes: nodes.txt, elements: elements.txt}\n"
+         "      materials: {sand: {tag: 1, density: 1900 kg/m3}}\n"
          "      units: " +
          units +
          "\n"

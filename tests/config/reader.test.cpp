@@ -87,6 +87,31 @@ TEST_CASE("wrong keys are named with the nearest known one", "[config]") {
         "case.yaml:2:1: top: 'depth' is missing (depth of the layer) add 'depth: 1 m'");
 }
 
+TEST_CASE("keys of older versions are refused with their new spelling", "[config]") {
+  const auto problem = [](std::string_view text) {
+    return sample::problem_of(text, [](const auto& path) {
+      double width = kUnset;
+      sample::Layer box;
+      detail::read_fields(load_yaml(path), "", [&](FieldVisitor& v) {
+        v.moved("breadth", "(no synonyms) write 'width: 2 m'");
+        v.quantity("width", width, Dim::length, {}, "width");
+        v.moved("box", "(sides have names) write 'box: {depth: 1 m}'", FieldVisitor::Moved::list);
+        v.group("box", box, "box");
+        v.passed_over("strength");
+      });
+    });
+  };
+  CHECK(problem("breadth: 2 m\nwidth: 2 m\nbox: {depth: 1 m}\n") ==
+        "case.yaml:1:1: the file: 'breadth' is written as in an older version (no synonyms) write "
+        "'width: 2 m'");
+  CHECK(problem("width: 2 m\nbox: [1 m]\n") ==
+        "case.yaml:2:1: the file: 'box' is written as in an older version (sides have names) write "
+        "'box: {depth: 1 m}'");
+  CHECK(problem("width: 2 m\nbox: {depth: 1 m}\nstrength: {any: thing}\n").empty());
+  CHECK(problem("width: 2 m\nbox: {depth: 1 m}\nother: 1\n").find("unknown key") !=
+        std::string::npos);
+}
+
 TEST_CASE("wrong values are named with place, path and what is expected", "[config]") {
   CHECK(read_problem("spacing: 0.5\n") ==
         "case.yaml:1:10: spacing: '0.5' has no unit (length expected, e.g. '0.5 m')");

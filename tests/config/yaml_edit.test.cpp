@@ -1,6 +1,7 @@
 #include "tests/config/sample.hpp"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 using namespace flowslide;
 using sample::load_problem;
@@ -72,7 +73,36 @@ TEST_CASE("a reference takes the value at its path", "[config]") {
   CHECK(load_yaml(file.path(), options).find("d")->find("e")->scalar() == "2 m");
 }
 
-TEST_CASE("a reference to nothing, to a map or to itself is refused", "[config]") {
+TEST_CASE("a reference takes a list or a map with all that is in it", "[config]") {
+  const YamlFile file(
+      "rule: {box: {left: 1 m, right: \"${end}\"}, tags: [a, b]}\nend: 5 m\n"
+      "zone: ${rule}\nmap: {box: \"${zone.box}\", tags: \"${rule.tags}\"}\n");
+  const YamlNode root = load_yaml(file.path());
+  CHECK(root.find("zone")->find("tags")->item(1).scalar() == "b");
+  const YamlNode right = *root.find("map")->find("box")->find("right");
+  CHECK(right.scalar() == "5 m");
+  CHECK(right.path() == "map.box.right");
+  // The place is that where the value can be changed.
+  CHECK(std::string(right.error("is wrong").what()) ==
+        file.path().string() +
+            ":1:32: map.box.right: is wrong (the value comes from ${zone.box.right})");
+  const std::vector<std::string> options = {"rule.box.left=2 m"};
+  CHECK(load_yaml(file.path(), options).find("map")->find("box")->find("left")->scalar() == "2 m");
+  // A copy is a value of its own: the other one keeps its entries.
+  CHECK(root.find("rule")->find("box")->size() == 2);
+}
+
+TEST_CASE("references cannot blow a file up", "[config]") {
+  std::string doubling = "k0: [1, 1]\n", nesting = "n0: [1]\n";
+  for (int i = 1; i <= 40; ++i) {
+    doubling += fmt::format("k{0}: [\"${{k{1}}}\", \"${{k{1}}}\"]\n", i, i - 1);
+    nesting += fmt::format("n{0}: [[\"${{n{1}}}\"]]\n", i, i - 1);
+  }
+  CHECK(load_problem(doubling).find("makes the file too large") != std::string::npos);
+  CHECK(load_problem(nesting).find("nests too deep") != std::string::npos);
+}
+
+TEST_CASE("a reference to nothing, or to itself, is refused", "[config]") {
   const auto problem = [](const std::string& line) {
     return load_problem(std::string(kText) + line);
   };
@@ -80,8 +110,10 @@ TEST_CASE("a reference to nothing, to a map or to itself is refused", "[config]"
         "case.yaml:4:4: z: '${a.x}': a has no key 'x' (a reference needs a value that is written "
         "there)");
   CHECK(load_problem("cell: 1 m\nz: ${cel}").find("did you mean 'cell'?") != std::string::npos);
-  CHECK(problem("z: ${a}") ==
-        "case.yaml:4:4: z: '${a}': a is a map (only a single value can be referred to)");
+  CHECK(load_problem("a: {b: \"${a}\"}") ==
+        "case.yaml:1:8: a.b: '${a}' refers to itself (a.b -> a) refer to a part that lies outside");
+  CHECK(load_problem("a: {b: \"${c}\"}\nc: {d: \"${a}\"}").find("(a.b -> c.d -> a)") !=
+        std::string::npos);
   CHECK(problem("z: ${none}").find("none is without a value") != std::string::npos);
   CHECK(problem("z: ${list.7}").find("list has no item '7'") != std::string::npos);
   CHECK(problem("z: ${}").find("is not a path") != std::string::npos);

@@ -1,7 +1,9 @@
-#include "core/elementary.hpp"
+#include "core/elementary_lanes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include <catch2/catch.hpp>
@@ -170,4 +172,25 @@ TEST_CASE("Elementary functions end where the numbers do", "[core]") {
   }
   CHECK(std::isnan(flowslide::asin(1.1)));
   CHECK(std::isnan(flowslide::atan2(nan, 1.0)));
+}
+
+TEMPLATE_TEST_CASE_SIG("A lane has the bits of a double", "[core]", ((int N), N), 2,
+                       std::min(4, flowslide::kPackLanes), flowslide::kPackLanes) {
+  const auto same = [](double a, double b) {
+    return std::memcmp(&a, &b, sizeof a) == 0 || (std::isnan(a) && std::isnan(b));
+  };
+  const double special[] = {0.0,  -0.0, kInfinity, -kInfinity, std::nan(""), 1.0,      -1.0,
+                            1e-310, 708.5, 709.9,     -708.5,     -740.0,       -800.0, 1e300};
+  Random random;
+  int different = 0;
+  for (int i = 0; i < 20000; ++i) {
+    flowslide::PackOf<N> x;
+    for (int k = 0; k < N; ++k)
+      x.v[k] = i % 5 == 0 ? special[static_cast<std::size_t>(14.0 * random())]
+                          : random.wide(i % 5 == 1 ? 1000 : 8);
+    const auto e = exp(x), l = log(x);
+    for (int k = 0; k < N; ++k)
+      different += !same(e[k], flowslide::exp(x[k])) || !same(l[k], flowslide::log(x[k]));
+  }
+  CHECK(different == 0);
 }

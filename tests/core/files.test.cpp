@@ -74,3 +74,13 @@ TEST_CASE("Only what writers left behind is cleared away") {
   CHECK(!fs::exists(left));
   CHECK(entries(folder / ".") == 3);
 }
+
+TEST_CASE("A name that is none is refused and costs no other file") {
+  // The folder itself, with a slash at its end, has an empty file name, and so has nothing at all.
+  const TemporaryFolder folder;
+  const fs::path other = folder / "other.txt";
+  std::ofstream(other) << "mine";
+  CHECK_THROWS_AS(OutputFile(other.parent_path() / ""), FileError);
+  CHECK_THROWS_AS(OutputFile(fs::path()), FileError);
+  CHECK(entries(other.parent_path()) == 1);
+}

@@ -3,6 +3,7 @@
 #include "core/check.hpp"
 #include "tests/model/scratch.hpp"
 #include "tests/support/limited_files.hpp"
+#include "tests/support/materials.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -36,7 +37,7 @@ FemFrame frame(double time, double velocity) {
 
 TEST_CASE("recorders have time, then components in the order of OpenSees") {
   const Scratch scratch;
-  FemHistoryWriter writer(scratch / "h.h5", one_cell(), {});
+  FemHistoryWriter writer(scratch / "h.h5", one_cell(), test::materials_of(one_cell()), {});
   writer.set_gravity(frame(0.0, 0.0));
   writer.append(frame(0.25, 1.0));
   writer.finish();
@@ -53,7 +54,7 @@ TEST_CASE("recorders have time, then components in the order of OpenSees") {
 
 TEST_CASE("what text cannot say is refused") {
   const Scratch scratch;
-  FemHistoryWriter writer(scratch / "h.h5", one_cell(), {});
+  FemHistoryWriter writer(scratch / "h.h5", one_cell(), test::materials_of(one_cell()), {});
   writer.set_gravity(frame(0.0, 0.0));
   writer.append(frame(0.25, kUnset));
   writer.finish();
@@ -67,7 +68,7 @@ TEST_CASE("what text cannot say is refused") {
 
 TEST_CASE("recorders on a full disk are whole or not there") {
   const Scratch scratch;
-  FemHistoryWriter writer(scratch / "h.h5", one_cell(), {});
+  FemHistoryWriter writer(scratch / "h.h5", one_cell(), test::materials_of(one_cell()), {});
   writer.set_gravity(frame(0.0, 0.0));
   for (int k = 1; k < 40; ++k) writer.append(frame(k / 3.0, k / 7.0));
   writer.finish();

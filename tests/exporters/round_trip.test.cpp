@@ -1,6 +1,7 @@
 #include "exporters/opensees_recorders.hpp"
 #include "importers/opensees.hpp"
 #include "tests/model/scratch.hpp"
+#include "tests/support/materials.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,7 @@ OpenSeesConfig standard_names(const std::filesystem::path& folder) {
   OpenSeesConfig c;
   c.mesh.nodes = {folder / "nodeinfo.dat"};
   c.mesh.elements = {folder / "elementinfo.dat"};
+  c.materials = {{"tailings", {168, 1870.0, {}}}};
   c.units = {"m", "s", "kPa"};
   c.gravity.stress = {folder / "Gstress.out"};
   c.gravity.strain = InputFile{folder / "Gstrain.out"};
@@ -61,7 +63,7 @@ void write_history(const std::filesystem::path& path) {
     }
     return f;
   };
-  FemHistoryWriter writer(path, mesh, {});
+  FemHistoryWriter writer(path, mesh, test::materials_of(mesh), {});
   writer.set_gravity(frame(0.0));
   for (const double t : {0.1, 0.2, 0.3}) writer.append(frame(t));
   writer.finish();

@@ -63,9 +63,8 @@ STAGES = {
     with:
       when: gravity
       zone: all
-      liquefiable: [168]
+      liquefiable: [tailings]
       pond_surface: 16 m
-      densities: [[167, 1690 kg/m3], [168, 1870 kg/m3], [170, 1900 kg/m3]]
       windows: {pond: {from: -40 m, to: -20 m}}
       strength: {table: [[25 kPa, 3 kPa], [100 kPa, 6 kPa]]}
 """,
@@ -75,22 +74,16 @@ STAGES = {
     in: {history: shake.history, zone: zone.zone}
     with:
       cell: 4 m
-      box: [-64 m, 80 m, -8 m, 40 m]
+      box: {left: -64 m, right: 80 m, bottom: -8 m, top: 40 m}
       c_soft_ratio: 0.5
       audit: {enforce: false}
       materials:
         embankment:
-          tags: [167]
-          density: 1690 kg/m3
           mohr_coulomb: {youngs_modulus: 20 MPa, poisson_ratio: 0.3, cohesion: 5 kPa, friction_angle: 35 deg}
         tailings:
-          tags: [168]
-          density: 1870 kg/m3
           mohr_coulomb: {youngs_modulus: 20 MPa, poisson_ratio: 0.3, cohesion: 1 kPa, friction_angle: 30 deg}
           liquefied: {youngs_modulus: 20 MPa, poisson_ratio: 0.45, residual_strain: 1.0}
         foundation:
-          tags: [170]
-          density: 1900 kg/m3
           linear_elastic: {youngs_modulus: 20 MPa, poisson_ratio: 0.3}
           counts_for_runout: false
 """,
@@ -100,7 +93,6 @@ STAGES = {
     in: {particles: map.particles}
     with:
       cell: 4 m
-      toe: 48 m
       end: 3 s
       frame_interval: 1 s
       left_roller: -64 m
@@ -110,13 +102,17 @@ STAGES = {
   report:
     uses: report.runout
     in: {history: shake.history, zone: zone.zone, particles: map.particles, audit: map.audit, flow: flow.history}
-    with: {toe: 48 m, figures: false}
+    with: {figures: false}
 """,
     "shake_again": """
   shake_again:
     uses: import.opensees
     with:
       mesh: {nodes: recorders/nodeinfo.dat, elements: recorders/elementinfo.dat}
+      materials:
+        embankment: {tag: 167, density: 1690 kg/m3}
+        tailings: {tag: 168, density: 1870 kg/m3}
+        foundation: {tag: 170, density: 1900 kg/m3}
       units: {length: m, time: s, stress: kPa}
       gravity: {stress: recorders/Gstress.out, strain: recorders/Gstrain.out, pore_pressure: recorders/GporePressure.out}
       shaking:

@@ -43,17 +43,6 @@ Count implicit_step(double tolerance) {
 
 }  // namespace
 
-TEST_CASE("An explicit step does not allocate", "[fem]") {
-  Solver s = section_at_rest();
-  const auto shake = [&](int steps) {
-    for (int i = 0; i < steps; ++i) advance(s, {ground(s.state.time), ground(s.state.time + s.dt)});
-  };
-  shake(5);
-  const long before = allocations;
-  shake(40);
-  CHECK(allocations == before);
-}
-
 TEST_CASE("An explicit step of shaking allocates nothing", "[fem]") {
   Solver s = section_at_rest();
   const auto step = [&] {

@@ -70,6 +70,24 @@ TEST_CASE("A pond presses on the surface and sets its pore pressure", "[fem]") {
   }
 }
 
+TEST_CASE("Free-field columns know the pond above them", "[fem]") {
+  // 40 m of water over level ground: the effective stress is that of its buoyant weight
+  for (const double table : {4.0, 44.0}) {
+    FemConfig c = compliant(SideKind::free_field);
+    c.water->table = {{0.0, table}};
+    const Model m = build_model(section({}), c);
+    Solver r = make_solver(m, {});
+    solve_gravity(r, {});
+    CHECK(out_of_balance(r) < 1e-12);
+    for (std::size_t e = 0; e < r.state.stress.size(); ++e) {
+      if (r.layout.order[e] >= 16) continue;
+      const double depth = 3.5 - static_cast<double>(r.layout.order[e] / 4);
+      CHECK(r.state.stress[e][1] == Approx(-900.0 * 9.81 * depth).epsilon(1e-9));
+      CHECK(r.state.stress[e][3] == Approx(0.0).margin(1e-4));
+    }
+  }
+}
+
 TEST_CASE("Messages of the model name what does not fit", "[fem]") {
   const SectionMesh s = section({});
   FemConfig c = config(elastic_soil(), 4.0);

@@ -43,6 +43,22 @@ TEST_CASE("The band factor solves what the matrix multiplies", "[fem]") {
   CHECK((b - x).norm() < 1e-10 * x.norm());
 }
 
+TEST_CASE("The band factor solves systems of any size and width", "[fem]") {
+  // fewer rows than a block, a band narrower and wider than one, and a last block that is not full
+  const auto [nx, ny] = GENERATE(
+      table<int, int>({{1, 1}, {3, 1}, {8, 1}, {9, 1}, {17, 2}, {7, 7}, {13, 11}, {5, 31}}));
+  CAPTURE(nx, ny);
+  const auto m = grid(nx, ny, 0.1);
+  BandFactor f(m);
+  f.factorise(m);
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(m.rows(), -1.0, 3.0);
+  for (int again = 0; again < 2; ++again) {
+    Eigen::VectorXd b = m * x;
+    f.solve(b.data());
+    CHECK((b - x).norm() < 1e-12 * x.norm());
+  }
+}
+
 TEST_CASE("The band factor copes with separate parts and refuses a singular matrix", "[fem]") {
   Eigen::SparseMatrix<double> two(6, 6);
   two.insert(0, 0) = 2.0;

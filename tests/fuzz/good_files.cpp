@@ -7,6 +7,7 @@
 #include "model/section_mesh.hpp"
 #include "model/zone.hpp"
 #include "tests/fuzz/input.hpp"
+#include "tests/support/materials.hpp"
 
 namespace flowslide::fuzz {
 namespace {
@@ -36,7 +37,8 @@ FemFrame frame_at(double time) {
 }
 
 void write_shaking(const std::filesystem::path& path) {
-  FemHistoryWriter out(path, two_squares().mesh, {"a test", "mean", {"a note"}});
+  FemHistoryWriter out(path, two_squares().mesh, test::materials_of(two_squares().mesh),
+                       {"a test", "mean", {"a note"}});
   out.set_gravity(frame_at(0.0));
   for (const double time : {0.1, 0.2}) out.append(frame_at(time));
   out.finish();
@@ -53,10 +55,12 @@ LiquefactionZone zone() {
   z.layer = {0, -1};
   z.lower_boundary = {{0.0, 1.0}, {2.0, 0.5}};
   z.window_names = z.history.window_names = {"crest", "pond"};
-  z.window_depth_max = {1.0, 2.0};
+  z.window_depth_max = z.window_depth_any = z.window_depth_interpolated = z.window_depth_strong =
+      z.window_depth_before_slide = {1.0, 2.0};
   z.history.time = {0.0, 1.0};
-  z.history.depth = z.history.depth_max = {{0, 1}, {0, 2}};
-  z.history.kinetic_energy = z.history.kinetic_energy_relative = {0, 10};
+  z.history.depth = z.history.depth_max = z.history.depth_any = z.history.depth_interpolated = {
+      {0, 1}, {0, 2}};
+  z.history.kinetic_energy = z.history.sliding_energy = z.history.kinetic_energy_relative = {0, 10};
   z.history.distortion_gauss = z.history.distortion_centre = {1, 0.9};
   z.notes = {"a note"};
   return z;
@@ -75,7 +79,7 @@ ParticleSet particles() {
 }
 
 void write_runout(const std::filesystem::path& path) {
-  MpmHistoryWriter out(path, particles());
+  MpmHistoryWriter out(path, particles(), {});
   for (const double time : {0.0, 0.5}) {
     MpmFrame f;
     f.time = time;

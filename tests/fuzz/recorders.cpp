@@ -25,6 +25,7 @@ void opensees(Input input) {
   c.mesh.elements = next("elementinfo.dat");
   c.mesh.recorder_order = choose.flag() ? RecorderOrder::tag : RecorderOrder::file;
   c.mesh.reverse_clockwise = choose.flag();
+  for (int tag = 1; tag < 200; ++tag) c.materials[std::to_string(tag)] = {tag, 1900.0, {}};
   c.units = {"m", "s", "kPa"};
   c.columns.time = !choose.flag();
   c.bad_rows = choose.flag() ? BadRows::stop : BadRows::error;

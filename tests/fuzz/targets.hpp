@@ -20,6 +20,8 @@ void terrain(Input);         ///< an ESRI ASCII grid
 void store(Input);           ///< changes of a good file of every kind
 void run_lock(Input);        ///< run.lock
 void stage_record(Input);    ///< stage.json, facts.json, audit.json
+void study(Input);           ///< a study file and a table that it names
+void study_plan(Input);      ///< study.json
 void checkpoint(Input);      ///< changes of good checkpoints, with the checksum made anew
 
 struct Target {
@@ -32,6 +34,7 @@ inline constexpr std::array kTargets{
     Target{"gmsh", gmsh},               Target{"mesh_tables", mesh_tables},
     Target{"motion", motion},           Target{"terrain", terrain},
     Target{"store", store},             Target{"run_lock", run_lock},
-    Target{"stage_record", stage_record}, Target{"checkpoint", checkpoint}};
+    Target{"stage_record", stage_record}, Target{"checkpoint", checkpoint},
+    Target{"study", study},             Target{"study_plan", study_plan}};
 
 }  // namespace flowslide::fuzz

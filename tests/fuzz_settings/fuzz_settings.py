@@ -41,23 +41,23 @@ SCENE = {
                                    "permeability": ["1e-6 m/s", "1e-6 m/s"], "mohr_coulomb": SOIL}},
             "base": {"motion": "within"}, "end": "0.2 s", "output_interval": "0.1 s"}},
         "zone": {"uses": "transfer.zone", "in": {"history": "shake.history"}, "with": {
-            "when": "gravity", "zone": "all", "liquefiable": [1], "windows": {},
-            "densities": [[1, "1900 kg/m3"]], "pond_surface": "6 m",
+            "when": "gravity", "zone": "all", "liquefiable": ["soil"], "windows": {},
+            "pond_surface": "6 m",
             "strength": {"table": [["10 kPa", "1 kPa"], ["100 kPa", "5 kPa"]]}}},
         "map": {"uses": "transfer.map",
                 "in": {"history": "shake.history", "zone": "zone.zone"}, "with": {
             "cell": "1 m", "c_soft_ratio": 0.5, "audit": {"enforce": False},
-            "materials": {"soil": {"tags": [1], "density": "1900 kg/m3", "mohr_coulomb": SOIL,
+            "materials": {"soil": {"mohr_coulomb": SOIL,
                                    "liquefied": {"youngs_modulus": "5 MPa", "poisson_ratio": 0.45,
                                                  "residual_strain": 1.0}}}}},
         "flow": {"uses": "mpm.run", "in": {"particles": "map.particles"}, "with": {
-            "cell": "1 m", "toe": "16 m", "end": "0.5 s", "transfer": "aflip", "left_roller": "0 m",
+            "cell": "1 m", "end": "0.5 s", "transfer": "aflip", "left_roller": "0 m",
             "ground": {"surface": [["0 m", "0 m"]]}, "frame_interval": "0.25 s",
             "sample_interval": "0.05 s"}},
         "report": {"uses": "report.runout", "in": {
             "history": "shake.history", "zone": "zone.zone", "particles": "map.particles",
             "audit": "map.audit", "flow": "flow.history"},
-            "with": {"toe": "16 m", "figures": False}},
+            "with": {"figures": False}},
     },
 }
 
@@ -88,6 +88,8 @@ def draw(rng, schema, depth=0):
     if "enum" in plain:
         return rng.choice(plain["enum"])
     kind = plain.get("type")
+    if isinstance(kind, list):  # lists and maps may be references too
+        kind = kind[0]
     if kind == "boolean":
         return rng.random() < 0.5
     if kind == "integer":

@@ -1,6 +1,5 @@
 #include "importers/opensees.hpp"
 
-#include "config/yaml.hpp"
 #include "core/check.hpp"
 #include "importers/recorder_text.hpp"
 #include "small_model.hpp"
@@ -410,34 +409,15 @@ TEST_CASE("any recorder cut at any byte gives fewer rows or an error", "[importe
   }
 }
 
-TEST_CASE("settings are read from a workflow file", "[importers]") {
-  const SmallModel model;
-  const auto file = model.folder.write("case.yaml", R"(
-mesh: {nodes: nodeinfo.dat, elements: elementinfo.dat}
-units: {length: m, time: s, stress: kPa}
-gravity: {stress: Gstress.out, strain: Gstrain.out, pore_pressure: GporePressure.out}
-shaking:
-  displacement: displacement.out
-  velocity: velocity.out
-  pore_pressure: porePressure.out
-  stress: stress.out
-  strain: strain.out
-  stage: last
-sigma_zz: {rule: elastic, nu: 0.3}
-)");
-  const auto config = read_settings<OpenSeesConfig>(load_yaml(file), "");
-  CHECK(config.shaking->stage == StageChoice::last);
-  CHECK(config.sigma_zz.nu == 0.3);
-  CHECK(config.columns.stress == std::vector<std::string>{"xx", "yy", "xy"});
-  CHECK(import_opensees(config, model.out()).num_frames == 3);
-}
-
 TEST_CASE("the dam that fails is read as OpenSees wrote it", "[importers]") {
   const test::DataFolder folder;
   const std::filesystem::path source = test::fixture("opensees/dam-rio270");
   OpenSeesConfig config;
   config.mesh.nodes.path = source / "nodeinfo.dat";
   config.mesh.elements.path = source / "elementinfo.dat";
+  config.materials = {{"embankment", {167, 1690.0, {}}},
+                      {"tailings", {168, 1870.0, {}}},
+                      {"foundation", {170, 1900.0, {}}}};
   config.units = {"m", "s", "kPa"};
   config.gravity = {{source / "Gstress.out"},
                     InputFile{source / "Gstrain.out"},

@@ -24,6 +24,7 @@ struct SmallModel {
     config.mesh.nodes.path =
         folder.write("nodeinfo.dat", "1 0 0\n2 1 0\n3 2 0\n4 0 1\n5 1 1\n6 2 1\n");
     config.mesh.elements.path = folder.write("elementinfo.dat", "10 1 2 5 4 168\n20 2 3 6 5 170\n");
+    config.materials = {{"tailings", {168, 1870.0, 0.5}}, {"foundation", {170, 1900.0, {}}}};
     config.units = {"m", "s", "kPa"};
     config.gravity.stress.path = folder.write("Gstress.out", stress_rows(0, 1));
     config.gravity.strain = InputFile{folder.write("Gstrain.out", strain_rows(0, 1))};

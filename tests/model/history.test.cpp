@@ -3,6 +3,7 @@
 #include "core/check.hpp"
 #include "model/field_store.hpp"
 #include "tests/model/scratch.hpp"
+#include "tests/support/materials.hpp"
 
 #include <cmath>
 #include <cstring>
@@ -47,7 +48,8 @@ bool same(const FemFrame& a, const FemFrame& b) {
 }
 
 void write_history(const std::filesystem::path& path, int frames) {
-  FemHistoryWriter out(path, one_quad(), {"a test", "K0 of 0.5", {"first note", "", "third"}});
+  FemHistoryWriter out(path, one_quad(), {{"sand", 5, 1900.0, 0.45, "pm4sand"}},
+                       {"a test", "K0 of 0.5", {"first note", "", "third"}});
   out.set_gravity(frame_at(0.0));
   for (int i = 0; i < frames; ++i) out.append(frame_at(0.1 * (i + 1)));
   out.finish();
@@ -65,6 +67,12 @@ TEST_CASE("a history comes back from the file to the bit") {
   CHECK(h.mesh().elements == mesh.elements);
   CHECK(h.mesh().element_tags == mesh.element_tags);
   CHECK(h.mesh().element_material == mesh.element_material);
+  REQUIRE(h.materials().size() == 1);
+  CHECK(h.materials()[0].name == "sand");
+  CHECK(h.materials()[0].tag == 5);
+  CHECK(h.materials()[0].density == 1900.0);
+  CHECK(h.materials()[0].porosity == 0.45);
+  CHECK(h.materials()[0].law == "pm4sand");
   CHECK(h.origin().program == "a test");
   CHECK(h.origin().sigma_zz_rule == "K0 of 0.5");
   CHECK(h.origin().notes == std::vector<std::string>{"first note", "", "third"});
@@ -99,7 +107,7 @@ TEST_CASE("equal histories give equal bytes") {
 TEST_CASE("an unfinished history leaves no file") {
   const Scratch folder;
   {
-    FemHistoryWriter out(folder / "h.h5", one_quad(), {});
+    FemHistoryWriter out(folder / "h.h5", one_quad(), test::materials_of(one_quad()), {});
     out.set_gravity(frame_at(0.0));
     out.append(frame_at(1.0));
     CHECK(folder.entries() == 1);
@@ -110,7 +118,7 @@ TEST_CASE("an unfinished history leaves no file") {
 
 TEST_CASE("frames that do not fit are refused") {
   const Scratch folder;
-  FemHistoryWriter out(folder / "h.h5", one_quad(), {});
+  FemHistoryWriter out(folder / "h.h5", one_quad(), test::materials_of(one_quad()), {});
   CHECK_THROWS_WITH(out.append(frame_at(1.0)), Contains("gravity"));
   CHECK_THROWS_WITH(out.finish(), Contains("gravity"));
   out.set_gravity(frame_at(0.0));

@@ -8,6 +8,7 @@
 #include "model/section_mesh.hpp"
 #include "model/vtk_writer.hpp"
 #include "model/zone.hpp"
+#include "tests/support/materials.hpp"
 
 #include <cmath>
 #include <random>
@@ -56,7 +57,7 @@ MpmFrame particle_frame(unsigned k) {
 }
 
 void write_runout(const fs::path& path) {
-  MpmHistoryWriter out(path, particles());
+  MpmHistoryWriter out(path, particles(), {});
   for (unsigned k = 0; k < 5; ++k) {
     out.append(particle_frame(k));
     MpmSample sample;
@@ -101,7 +102,8 @@ FemFrame mesh_frame(const QuadMesh& m, unsigned k) {
 
 void write_shaking(const fs::path& path) {
   const QuadMesh m = strip(100);
-  ResumableHistoryWriter out(path, m, {"a test", "given", {}}, mesh_frame(m, 0), 0);
+  ResumableHistoryWriter out(path, m, test::materials_of(m), {"a test", "given", {}},
+                             mesh_frame(m, 0), 0);
   for (unsigned k = 1; k < 5; ++k) out.append(mesh_frame(m, k));
   out.flush();
   out.finish();

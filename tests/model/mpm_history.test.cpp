@@ -22,6 +22,7 @@ ParticleSet start() {
   ParticleSet p;
   p.history["r_u"] = {};
   resize(p, kParticles);
+  p.toe = 12.5;
   p.materials = {{"dam", "mohr_coulomb", {{"cohesion", 1e3}}, true}};
   for (std::size_t i = 0; i < kParticles; ++i) {
     p.position[i] = {0.1 * static_cast<double>(i), 0.0, 0.0};
@@ -32,6 +33,8 @@ ParticleSet start() {
   }
   return p;
 }
+
+constexpr RestRule kRest{0.001, 0.2, 4.0};
 
 MpmFrame frame_at(int k) {
   MpmFrame f;
@@ -73,7 +76,7 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
 TEST_CASE("a runout comes back from the file to the bit, in order of id") {
   const Scratch folder;
   {
-    MpmHistoryWriter out(folder / "m.h5", start());
+    MpmHistoryWriter out(folder / "m.h5", start(), kRest);
     for (int k = 0; k < 3; ++k) advance(out, k);
     CHECK_FALSE(std::filesystem::exists(folder / "m.h5"));
     out.finish();
@@ -89,6 +92,10 @@ TEST_CASE("a runout comes back from the file to the bit, in order of id") {
     CHECK(h.initial().history.at("r_u")[i] == static_cast<double>(i));
   }
   CHECK(h.initial().position[7][0] == 0.1);
+  CHECK(h.initial().toe == 12.5);
+  CHECK(h.rest().kinetic_share == kRest.kinetic_share);
+  CHECK(h.rest().runout_change == kRest.runout_change);
+  CHECK(h.rest().window == kRest.window);
   CHECK(h.initial().materials[0].parameters.at("cohesion") == 1e3);
   REQUIRE(h.num_frames() == 3);
   const MpmFrame expected = frame_at(2);
@@ -116,14 +123,14 @@ TEST_CASE("a runout comes back from the file to the bit, in order of id") {
 TEST_CASE("a killed run that is resumed gives the bytes of an uninterrupted one") {
   const Scratch folder;
   {
-    MpmHistoryWriter out(folder / "whole.h5", start());
+    MpmHistoryWriter out(folder / "whole.h5", start(), kRest);
     for (int k = 0; k < 6; ++k) advance(out, k);
     out.finish();
   }
   const pid_t child = fork();
   REQUIRE(child >= 0);
   if (child == 0) {
-    MpmHistoryWriter out(folder / "killed.h5", start());
+    MpmHistoryWriter out(folder / "killed.h5", start(), kRest);
     for (int k = 0; k < 3; ++k) advance(out, k);
     out.flush();
     advance(out, 3);  // written after the checkpoint: must vanish
@@ -136,7 +143,7 @@ TEST_CASE("a killed run that is resumed gives the bytes of an uninterrupted one"
   const std::filesystem::path frames = folder / "killed.h5.partial/frames.bin";
   std::filesystem::resize_file(frames, std::filesystem::file_size(frames) - 100);
   {
-    MpmHistoryWriter out(folder / "killed.h5", start(), 3, 15);
+    MpmHistoryWriter out(folder / "killed.h5", start(), kRest, 3, 15);
     for (int k = 3; k < 6; ++k) advance(out, k);
     out.finish();
   }
@@ -146,23 +153,24 @@ TEST_CASE("a killed run that is resumed gives the bytes of an uninterrupted one"
 TEST_CASE("a resume that asks for more than there is fails") {
   const Scratch folder;
   {
-    MpmHistoryWriter out(folder / "m.h5", start());
+    MpmHistoryWriter out(folder / "m.h5", start(), kRest);
     advance(out, 0);
   }
-  CHECK_THROWS_AS(MpmHistoryWriter(folder / "m.h5", start(), 2, 5), FileError);
-  CHECK_THROWS_WITH(MpmHistoryWriter(folder / "m.h5", start(), 1, 6), Contains("samples.bin"));
-  CHECK_NOTHROW(MpmHistoryWriter(folder / "m.h5", start(), 1, 5));
-  CHECK_THROWS_AS(MpmHistoryWriter(folder / "none.h5", start(), 1, 0), FileError);
+  CHECK_THROWS_AS(MpmHistoryWriter(folder / "m.h5", start(), kRest, 2, 5), FileError);
+  CHECK_THROWS_WITH(MpmHistoryWriter(folder / "m.h5", start(), kRest, 1, 6),
+                    Contains("samples.bin"));
+  CHECK_NOTHROW(MpmHistoryWriter(folder / "m.h5", start(), kRest, 1, 5));
+  CHECK_THROWS_AS(MpmHistoryWriter(folder / "none.h5", start(), kRest, 1, 0), FileError);
 }
 
 TEST_CASE("a changed byte in the parts of an interrupted runout is noticed") {
   const Scratch folder;
   {
-    MpmHistoryWriter out(folder / "m.h5", start());
+    MpmHistoryWriter out(folder / "m.h5", start(), kRest);
     for (int k = 0; k < 3; ++k) advance(out, k);
     out.flush();
   }
-  const auto again = [&] { MpmHistoryWriter(folder / "m.h5", start(), 3, 15).finish(); };
+  const auto again = [&] { MpmHistoryWriter(folder / "m.h5", start(), kRest, 3, 15).finish(); };
   for (const char* part : {"frames.bin", "samples.bin"}) {
     const std::filesystem::path path = folder / (std::string("m.h5.partial/") + part);
     const std::string good = bytes_of(path);
@@ -181,7 +189,7 @@ TEST_CASE("a changed byte in the parts of an interrupted runout is noticed") {
 
 TEST_CASE("a run without output is a file without frames") {
   const Scratch folder;
-  MpmHistoryWriter(folder / "m.h5", start()).finish();
+  MpmHistoryWriter(folder / "m.h5", start(), kRest).finish();
   const MpmHistory h(folder / "m.h5");
   CHECK(h.num_frames() == 0);
   CHECK(h.samples().empty());
@@ -189,7 +197,7 @@ TEST_CASE("a run without output is a file without frames") {
 
 TEST_CASE("frames that are wrong are refused and leave no trace") {
   const Scratch folder;
-  MpmHistoryWriter out(folder / "m.h5", start());
+  MpmHistoryWriter out(folder / "m.h5", start(), kRest);
   advance(out, 1);
   CHECK_THROWS_WITH(out.append(frame_at(1)), Contains("times must increase"));
   MpmFrame f = frame_at(2);

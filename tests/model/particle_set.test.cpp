@@ -178,10 +178,19 @@ TEST_CASE("particles that contradict themselves are refused") {
   }
 }
 
+TEST_CASE("a particle file of an older version is refused with a word") {
+  const Scratch folder;
+  FieldWriter out(folder / "p.h5", "particles", 1);  // without a toe
+  out.finish();
+  CHECK_THROWS_WITH(read_particles(folder / "p.h5"),
+                    Contains("format version 1 of particles") && Contains("make the file again"));
+}
+
 TEST_CASE("a particle file whose content contradicts itself is refused by name") {
   const Scratch folder;
-  FieldWriter out(folder / "p.h5", "particles", 1);
+  FieldWriter out(folder / "p.h5", "particles", 2);
   out.write("dim", std::vector<std::int32_t>{2}, {.unit = ""});
+  out.write("toe", std::vector<double>{1.0}, {.unit = "m"});
   out.write("particles/position", std::vector<std::array<double, 3>>(2), {.unit = "m"});
   out.write("particles/velocity", std::vector<std::array<double, 3>>(3), {.unit = "m/s"});
   out.finish();

@@ -2,6 +2,7 @@
 
 #include "core/check.hpp"
 #include "tests/model/scratch.hpp"
+#include "tests/support/materials.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -34,8 +35,8 @@ FemFrame frame_at(double time) {
 const HistoryOrigin kOrigin{"a test", "K0 of 0.5", {"note"}};
 
 void write(const std::filesystem::path& path, int from, int to, bool finish) {
-  ResumableHistoryWriter out(path, one_quad(), kOrigin, frame_at(0.0),
-                             static_cast<std::size_t>(from));
+  ResumableHistoryWriter out(path, one_quad(), test::materials_of(one_quad()), kOrigin,
+                             frame_at(0.0), static_cast<std::size_t>(from));
   for (int i = from; i < to; ++i) out.append(frame_at(0.1 * (i + 1)));
   out.flush();
   if (!finish) return;
@@ -48,7 +49,7 @@ void write(const std::filesystem::path& path, int from, int to, bool finish) {
 TEST_CASE("a history written in parts has the bytes of one written at once") {
   const Scratch folder;
   {
-    FemHistoryWriter out(folder / "once.h5", one_quad(), kOrigin);
+    FemHistoryWriter out(folder / "once.h5", one_quad(), test::materials_of(one_quad()), kOrigin);
     out.set_gravity(frame_at(0.0));
     for (int i = 0; i < 5; ++i) out.append(frame_at(0.1 * (i + 1)));
     out.finish();
@@ -90,7 +91,8 @@ TEST_CASE("a history that lost frames is not continued") {
 
 TEST_CASE("frames that are not finite end the run") {
   const Scratch folder;
-  ResumableHistoryWriter out(folder / "h.h5", one_quad(), kOrigin, frame_at(0.0), 0);
+  ResumableHistoryWriter out(folder / "h.h5", one_quad(), test::materials_of(one_quad()), kOrigin,
+                             frame_at(0.0), 0);
   FemFrame f = frame_at(1.0);
   f.velocity[2][1] = kUnset;
   try {

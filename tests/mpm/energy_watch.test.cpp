@@ -13,6 +13,7 @@ namespace {
 /// An elastic block that falls 2 m onto ground without friction.
 std::string drop(BasisKind basis) {
   ParticleSet p;
+  p.toe = 0.0;
   p.materials = {elastic(5e6, 0.2)};
   add_lattice(p, {-1.0, 2.0, 1.0, 4.0}, 0.25, 2000.0);
   FlowConfig c = free_space(0.5);

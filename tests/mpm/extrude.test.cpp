@@ -31,7 +31,7 @@ struct Spreading {
     config.ground.friction = 0.6;
     config.left_roller = 0.0;
     config.transfer = Transfer::aflip;  // whose losses do not depend on the step
-    config.toe = 3.0;
+    points.toe = 3.0;
     config.end = 0.6;
     config.frame_interval = 1.0;
   }

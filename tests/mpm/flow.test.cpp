@@ -18,6 +18,7 @@ namespace {
 
 ParticleSet column() {
   ParticleSet p;
+  p.toe = 4.0;
   p.materials = {liquefied(1e6, 4e3), elastic(5e6, 0.3)};
   add_lattice(p, {0.0, 1.0, 4.0, 4.0}, 0.25, 1800.0);
   add_lattice(p, {0.0, 0.0, 4.0, 1.0}, 0.25, 1900.0, 1);
@@ -32,7 +33,6 @@ FlowConfig flow_config() {
   c.gravity = 9.81;
   c.ground.surface = {{0.0, 0.0}};
   c.left_roller = 0.0;
-  c.toe = 4.0;
   c.end = 1.0;
   c.frame_interval = 0.25;
   c.sample_interval = 0.05;

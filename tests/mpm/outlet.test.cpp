@@ -16,6 +16,7 @@ constexpr double kEdge = 3.5;
 
 ParticleSet column() {
   ParticleSet p;
+  p.toe = 2.0;
   p.materials = {liquefied(1e6, 500.0)};
   add_lattice(p, {0.0, 0.0, 2.0, 4.0}, 0.25, 1800.0);
   return p;
@@ -27,7 +28,6 @@ FlowConfig collapse() {
   c.ground.surface = {{0.0, 0.0}};
   c.ground.friction = 0.1;
   c.left_roller = 0.0;
-  c.toe = 2.0;
   c.end = 1.5;
   c.frame_interval = 0.5;
   c.sample_interval = 0.02;
@@ -176,6 +176,7 @@ TEST_CASE("Checkpoints keep what has left", "[mpm]") {
 TEST_CASE("A run that nothing is left of ends", "[mpm]") {
   const Scratch folder;
   ParticleSet p;
+  p.toe = 2.0;
   p.materials = {elastic(1e6, 0.3)};
   add_lattice(p, {0.0, 2.0, 1.0, 3.0}, 0.25, 1000.0);
   FlowConfig c = collapse();
@@ -205,6 +206,7 @@ TEST_CASE("Outlets that make no sense are refused", "[mpm]") {
 
 TEST_CASE("Three dimensions have outlets too", "[mpm]") {
   ParticleSet p;
+  p.toe = 2.0;
   p.dim = 3;
   p.materials = {elastic(1e6, 0.3)};
   resize(p, 2);

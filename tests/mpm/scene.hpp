@@ -51,9 +51,9 @@ inline void add_lattice(ParticleSet& p, const Box& box, double spacing, double d
 inline FlowConfig free_space(double cell) {
   FlowConfig c;
   c.cell = cell;
-  c.toe = 0.0;
   c.end = 1.0;
   c.gravity = 0.0;
+  c.transfer = Transfer::apic;
   c.ground.surface = {{0.0, -1e6}};
   return c;
 }
@@ -76,7 +76,7 @@ struct Run {
   Run(const ParticleSet& particles, const FlowConfig& config, int threads = 1)
       : s(make_simulation(particles, config)), scratch(threads) {
     prepare(s, scratch, true);
-    start = {sum_points(s), config.toe};
+    start = {sum_points(s), is_set(particles.toe) ? particles.toe : 0.0};
   }
   void step(int count = 1) {
     for (int i = 0; i < count; ++i) advance(s, scratch);
@@ -85,7 +85,7 @@ struct Run {
     while (s.time < time) step();
   }
   [[nodiscard]] MpmSample sample_now() const {
-    std::vector<double> buffer;
+    std::vector<Place> buffer;
     return sample(s, start, std::vector<bool>(s.materials.size(), true), buffer);
   }
 };

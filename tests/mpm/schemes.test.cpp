@@ -156,3 +156,28 @@ TEST_CASE("Terms of the full mass matrix keep to walls one by one", "[mpm]") {
   CHECK(largest_swing(run, 20.0 * Bar::period()) < 1.01 * first);
   CHECK(run.sample_now().momentum_error < 1e-9);
 }
+
+TEST_CASE("Soil whose pressure carries shear does not average it over spans", "[mpm]") {
+  const auto averages = [](const std::string& law, std::map<std::string, double> parameters,
+                           double poisson_ratio) {
+    ParticleSet p;
+    parameters.insert({{"youngs_modulus", 1e6}, {"poisson_ratio", poisson_ratio}});
+    p.materials = {{law, law, parameters, true}};
+    add_lattice(p, {0.0, 0.0, 1.0, 1.0}, 0.5, 1800.0);
+    return make_simulation<2>(p, free_space(1.0)).averages(0);
+  };
+  const std::map<std::string, double> clay{{"cohesion", 1e4}, {"friction_angle", 0.0}};
+  const std::map<std::string, double> sand{{"cohesion", 0.0}, {"friction_angle", 0.5}};
+  CHECK(averages("mohr_coulomb", clay, 0.45));
+  CHECK_FALSE(averages("mohr_coulomb", clay, 0.3));
+  CHECK_FALSE(averages("mohr_coulomb", sand, 0.45));
+  CHECK_FALSE(averages("drucker_prager", sand, 0.45));
+  CHECK_FALSE(averages("mu_i",
+                       {{"mu_static", 0.5},
+                        {"mu_limit", 0.8},
+                        {"inertial_number", 0.279},
+                        {"grain_size", 1e-3},
+                        {"grain_density", 2500.0}},
+                       0.45));
+  CHECK(averages("linear_elastic", {}, 0.45));
+}

@@ -32,7 +32,7 @@ struct Run3 {
   Run3(const ParticleSet& particles, const FlowConfig& config, int threads = 1)
       : s(make_simulation<3>(particles, config)), scratch(threads) {
     prepare(s, scratch, true);
-    start = {sum_points(s), config.toe};
+    start = {sum_points(s), is_set(particles.toe) ? particles.toe : 0.0};
   }
   void step(int count = 1) {
     for (int i = 0; i < count; ++i) advance(s, scratch);

@@ -176,7 +176,7 @@ TEST_CASE("A 3D block falls and closes its balances", "[mpm]") {
   const auto state_after = [&](int threads) {
     Run3 run(p, config, threads);
     while (run.s.time < 0.2) run.step();
-    std::vector<double> buffer;
+    std::vector<Place> buffer;
     const MpmSample r = sample(run.s, run.start, {true}, buffer);
     CHECK(r.momentum_error < 1e-9);
     CHECK(r.mass_error < 1e-12);

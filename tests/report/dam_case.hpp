@@ -3,6 +3,7 @@
 #include "model/history.hpp"
 #include "model/mpm_history.hpp"
 #include "model/zone.hpp"
+#include "tests/support/materials.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -72,7 +73,7 @@ inline FemFrame rest(const QuadMesh& m) {
 inline void write_history(const std::filesystem::path& path, bool shaken) {
   const QuadMesh m = mesh();
   FemFrame frame = rest(m);
-  FemHistoryWriter out(path, m,
+  FemHistoryWriter out(path, m, test::materials_of(m),
                        {.program = "a shaking table", .sigma_zz_rule = "given", .notes = {}});
   out.set_gravity(frame);
   for (int k = 0; shaken && k < 4; ++k) {
@@ -102,6 +103,10 @@ inline LiquefactionZone zone(const QuadMesh& m, bool shaken) {
   z.lower_boundary = {{-140.0, 12.0}, {-20.0, 12.0}, {14.0, 9.0}};
   z.window_names = {"crest", "pond"};
   z.window_depth_max = {14.0, 18.0};
+  z.window_depth_any = {20.0, 21.0};
+  z.window_depth_interpolated = {14.5, 18.5};
+  z.window_depth_strong = {9.0, 11.0};
+  z.window_depth_before_slide = {12.0, 13.0};
   if (!shaken) return z;
   ZoneHistory& h = z.history;
   h.window_names = z.window_names;
@@ -114,21 +119,33 @@ inline LiquefactionZone zone(const QuadMesh& m, bool shaken) {
       h.depth_max[w].push_back(5.0 * i + w);
     }
     h.kinetic_energy.push_back(2e5 * i);
+    h.sliding_energy.push_back(1e4 * i);
     h.kinetic_energy_relative.push_back(1e5 * i);
     h.distortion_gauss.push_back(1.0 - 0.01 * i);
     h.distortion_centre.push_back(1.0);
   }
+  h.depth_any = h.depth_interpolated = h.depth;
+  z.strong_shaking_end = 1.0;
+  z.onset_time = 2.0;
   z.notes = {"3 nodes near the pond surface were skipped"};
   return z;
 }
 
+/// The rule of rest of the flow.
+inline constexpr RestRule kRest{};
+
 inline ParticleSet particles() {
   ParticleSet p;
+  p.toe = kToe;
   p.materials = {
       {.name = "foundation", .law = "linear_elastic", .parameters = {}, .counts_for_runout = false},
       {.name = "embankment", .law = "mohr_coulomb", .parameters = {}},
       {.name = "tailings", .law = "mohr_coulomb", .parameters = {}},
-      {.name = "liquefied 1", .law = "residual_strength", .parameters = {}}};
+      {.name = "liquefied 1",
+       .law = "residual_strength",
+       .parameters = {},
+       .counts_for_runout = true,
+       .liquefied = true}};
   for (double x = -140.0 + 0.5 * kSpacing; x < kToe + 10.0; x += kSpacing)
     for (double y = -5.0 + 0.5 * kSpacing; y < surface(x); y += kSpacing) {
       const int s = soil(x, y) - 1;
@@ -164,7 +181,7 @@ struct Flow {
 /// Writes the history of a flow whose frames follow `flowed`; samples repeat the definition of the
 /// front by an independent sort.
 inline void write_flow(const std::filesystem::path& path, const ParticleSet& p, const Flow& flow) {
-  MpmHistoryWriter out(path, p);
+  MpmHistoryWriter out(path, p, kRest);
   const auto frame = [&](double time) {
     MpmFrame f;
     f.time = time;

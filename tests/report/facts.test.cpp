@@ -89,10 +89,13 @@ TEST_CASE("Displacement before the transfer counts, strength is relative to the 
   CHECK(end.strength_ratio[liquefied] == Approx(0.5));
 }
 
-TEST_CASE("The toe of the flow stage is found in its samples") {
+TEST_CASE("The runout counts from the toe that comes with the points, or from another") {
   const Case c({});
-  CHECK(c.facts.toe == Approx(75.0));
+  CHECK(c.facts.toe == 75.0);
   CHECK(c.facts.runout > 50.0);
+  ReportConfig farther;
+  farther.toe = 95.0;
+  CHECK(Case({}, farther).facts.runout == Approx(c.facts.runout - 20.0));
 }
 
 TEST_CASE("Warns of a run that was stopped, of balances and of an unknown toe") {
@@ -113,7 +116,7 @@ TEST_CASE("Warns if the failure reaches the upstream end") {
   c.end.failed[std::find(c.particles.material.begin(), c.particles.material.end(), 3) -
                c.particles.material.begin()] = 1;
   const MpmHistory history(c.scratch / "mpm.h5");
-  add_warnings(c.facts, history.initial(), c.end, history.samples(), c.config);
+  add_warnings(c.facts, history.initial(), c.end, history.samples(), history.rest(), c.config);
   CHECK(c.warns_of("upstream end"));
 }
 
@@ -156,7 +159,7 @@ TEST_CASE("Points that left by the outlet are told of") {
     ReportFacts f;
     f.points_left = points;
     f.mass_left = 20.0 * points;
-    add_warnings(f, p, end, samples, {});
+    add_warnings(f, p, end, samples, {}, {});
     std::string all;
     for (const std::string& w : f.warnings) all += w;
     return all;

@@ -28,7 +28,7 @@ void write_case(const Scratch& scratch, bool shaken) {
   std::filesystem::create_directories(out / "data");
   write_plot_data(out / "data", FemHistory(scratch / "history.h5"), zone, flow, end,
                   compute_facts(zone, flow, end, {}), {});
-  std::ofstream(out / "runout.csv") << runout_csv(flow.samples());
+  std::ofstream(out / "runout.csv") << runout_csv(flow.samples(), flow.initial().toe);
   std::ofstream(out / "zone.csv") << zone_csv(zone.history);
 }
 

@@ -19,14 +19,15 @@ TEST_CASE("runout.csv has a named column per quantity and the speed of the front
   samples[1].kinetic = 1.0 / 3.0;
   samples[1].energy_error = kUnset;
   samples[1].load_work = -2.0;
-  CHECK(runout_csv(samples) ==
+  CHECK(runout_csv(samples, 75.0) ==
         "time_s,runout_m,front_m,front_speed_m_s,kinetic_J_per_m,gravity_work_J_per_m,"
         "strain_energy_J_per_m,plastic_work_J_per_m,friction_work_J_per_m,damping_work_J_per_m,"
         "energy_error,momentum_error,mass_error,max_speed_m_s,dt_s,active_particles,points_left,"
         "mass_left_kg_per_m,kinetic_left_J_per_m,strain_energy_left_J_per_m,"
-        "momentum_left_x_N_s_per_m,momentum_left_y_N_s_per_m,load_work_J_per_m\n"
-        "0,0,75,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n"
-        "0.5,1.25,76.25,2.5,0.3333333333333333,0,0,0,0,0,nan,0,0,0,0,0,0,0,0,0,0,0,-2\n");
+        "momentum_left_x_N_s_per_m,momentum_left_y_N_s_per_m,load_work_J_per_m,"
+        "front_equal_mass_m,front_995_m,front_99_m,front_95_m,height_m\n"
+        "0,0,75,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n"
+        "0.5,1.25,76.25,2.5,0.3333333333333333,0,0,0,0,0,nan,0,0,0,0,0,0,0,0,0,0,0,-2,0,0,0,0,0\n");
 }
 
 TEST_CASE("zone.csv has a depth and its maximum per window") {
@@ -35,14 +36,19 @@ TEST_CASE("zone.csv has a depth and its maximum per window") {
   h.time = {0.0, 1.5};
   h.depth = {{0.0, 4.0}};
   h.depth_max = {{0.0, 6.0}};
+  h.depth_any = {{0.0, 7.0}};
+  h.depth_interpolated = {{0.0, 4.5}};
+  h.sliding_energy = {0.0, 0.125};
   h.kinetic_energy = {1.0, 2.0};
   h.kinetic_energy_relative = {0.5, 0.25};
   h.distortion_gauss = {1.0, 0.97};
   h.distortion_centre = {1.0, 0.99};
   CHECK(zone_csv(h) ==
-        "time_s,depth_east_pond__low_m,depth_max_east_pond__low_m,kinetic_energy_J_per_m,"
-        "kinetic_energy_relative_J_per_m,distortion_gauss,distortion_centre\n"
-        "0,0,0,1,0.5,1,1\n1.5,4,6,2,0.25,0.97,0.99\n");
+        "time_s,depth_east_pond__low_m,depth_max_east_pond__low_m,"
+        "depth_any_node_east_pond__low_m,depth_interpolated_east_pond__low_m,"
+        "kinetic_energy_J_per_m,kinetic_energy_relative_J_per_m,sliding_energy_J_per_m,"
+        "distortion_gauss,distortion_centre\n"
+        "0,0,0,0,0,1,0.5,0,1,1\n1.5,4,6,7,4.5,2,0.25,0.125,0.97,0.99\n");
   h.distortion_gauss.pop_back();
   CHECK_THROWS_AS(zone_csv(h), InputError);
   h.distortion_gauss.push_back(0.97);

@@ -49,6 +49,9 @@ void import_dam(const std::filesystem::path& out) {
   c.mesh.nodes = {folder / "nodeinfo.dat"};
   c.mesh.elements = {folder / "elementinfo.dat"};
   c.units = {"m", "s", "kPa"};
+  c.materials = {{"embankment", {167, 1690.0, {}}},
+                 {"tailings", {168, 1870.0, {}}},
+                 {"foundation", {170, 1900.0, {}}}};
   c.gravity.stress = {folder / "Gstress.out"};
   c.gravity.strain = InputFile{folder / "Gstrain.out"};
   c.gravity.pore_pressure = {folder / "GporePressure.out"};

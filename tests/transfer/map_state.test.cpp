@@ -3,6 +3,7 @@
 #include "config/yaml.hpp"
 #include "core/conventions.hpp"
 #include "distorted_mesh.hpp"
+#include "transfer/sordo2024/map_sordo2024.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -44,10 +45,16 @@ LiquefactionZone dry_zone(const QuadMesh& mesh) {
   return z;
 }
 
-MapMaterial soil(std::vector<int> tags) {
+const std::vector<HistoryMaterial> kSoils{
+    {"tailings", 1, kDensity}, {"dam", 2, kDensity}, {"rock", 99, 2500.0}};
+
+MapResult map_state(const QuadMesh& mesh, const FemFrame& gravity, const FemFrame* shaking,
+                    const LiquefactionZone& zone, const MapConfig& c) {
+  return map_state(mesh, kSoils, gravity, shaking, zone, c);
+}
+
+MapMaterial soil() {
   MapMaterial m;
-  m.tags = std::move(tags);
-  m.density = kDensity;
   m.law.of<MohrCoulomb>().emplace();
   m.law.of<MohrCoulomb>()->youngs_modulus = 20e6;
   m.law.of<MohrCoulomb>()->poisson_ratio = 0.3;
@@ -63,7 +70,7 @@ MapConfig config() {
   MapConfig c;
   c.cell = 1.0;
   c.c_soft_ratio = 0.5;
-  c.materials = {{"tailings", soil({1})}, {"dam", soil({2})}};
+  c.materials = {{"tailings", soil()}, {"dam", soil()}};
   c.audit.out_of_balance_rms = 0.01;
   c.audit.out_of_balance_max = 0.1;
   return c;
@@ -135,7 +142,8 @@ TEST_CASE("A jump of horizontal stress at a material boundary stays sharp", "[tr
     c->audit.enforce = false;
     c->mapped_stress = MappedStress::effective;
   }
-  smeared.materials = {{"all", soil({1, 2})}};
+  smeared.materials = {{"all", soil()}};
+  smeared.materials["all"].of = {"tailings", "dam"};
   LiquefactionZone z = dry_zone(mesh);
   // The lattice of separate materials splits cells at the boundary, so the particle's own material
   // decides; r_u of the zone carries it for both configurations.
@@ -292,10 +300,10 @@ TEST_CASE("Data that do not fit together are refused", "[transfer]") {
 
   mesh.element_material[7] = 99;
   CHECK_THROWS_WITH(map_state(mesh, gravity, nullptr, z, c),
-                    Catch::Contains("element 507 has material tag 99"));
-  c.box = {10.0, 20.0, 0.0, 12.0};
+                    Catch::Contains("element 507 is of the material 'rock', which is not among"));
+  c.box = {.left = 10.0, .right = 20.0, .bottom = 0.0, .top = 12.0};
   CHECK_NOTHROW(map_state(mesh, gravity, nullptr, z, c));
-  c.box = {100.0, 200.0, 0.0, 12.0};
+  c.box = {.left = 100.0, .right = 200.0, .bottom = {}, .top = {}};
   CHECK_THROWS_WITH(map_state(mesh, gravity, nullptr, z, c), Catch::Contains("inside the box"));
   mesh.element_material[7] = 1;
   c = config();
@@ -327,7 +335,7 @@ TEST_CASE("The same state comes from a file, and the audit is written", "[transf
   const QuadMesh mesh = ground(0.15);
   const FemFrame gravity = geostatic(mesh);
   {
-    FemHistoryWriter writer(folder / "history.h5", mesh, {"test", "given", {}});
+    FemHistoryWriter writer(folder / "history.h5", mesh, kSoils, {"test", "given", {}});
     writer.set_gravity(gravity);
     writer.finish();
   }
@@ -356,18 +364,22 @@ TEST_CASE("The published script's points are audited but not judged", "[transfer
   const QuadMesh mesh = ground(0.15);
   FemFrame gravity = geostatic(mesh);
   {
-    FemHistoryWriter writer(path, mesh, {"test", "given", {}});
+    FemHistoryWriter writer(path, mesh, kSoils, {"test", "given", {}});
     writer.set_gravity(gravity);
     writer.finish();
   }
-  MapConfig c = config();
-  c.compat = Compat::sordo2024;
-  c.sordo2024.emplace();
-  c.sordo2024->base_node = 100;
-  c.sordo2024->tailings = 1;
-  c.sordo2024->densities = {{1, kDensity}};
-  c.sordo2024->keep_x = {-1.0, 30.0};
-  const MapResult r = map_state(FemHistory(path), dry_zone(mesh), c);
+  SordoTransferConfig c;
+  c.cell = 1.0;
+  c.base_node = 100;
+  c.soils = {"tailings", "dam", "rock"};
+  c.keep_x = {-1.0, 30.0};
+  LiquefactionZone at_rest = dry_zone(mesh);
+  at_rest.transfer_frame = -1;
+  const SordoResult r = map_sordo2024_audited(FemHistory(path), at_rest, c);
+  CHECK(r.particles.toe == Approx(24.0));
+  c.soils.tailings = "1";
+  CHECK_THROWS_WITH(map_sordo2024_audited(FemHistory(path), at_rest, c),
+                    Catch::Contains("tailings: 1 is a tag"));
   std::filesystem::remove(path);
   CHECK(r.particles.size() == 4 * mesh.num_elements());
   CHECK(r.audit.passed());
@@ -381,21 +393,15 @@ TEST_CASE("Settings of the map are read from YAML", "[transfer]") {
   const auto path = std::filesystem::temp_directory_path() / "flowslide_map_config_test.yaml";
   std::ofstream(path) << R"(cell: 1.25 m
 c_soft_ratio: 0.5
-box: [-340 m, 87.5 m, -5 m, 100 m]
+box: {left: -340 m, right: 87.5 m, bottom: -5 m}
 return: mean_stress
 materials:
   embankment:
-    tags: [167]
-    density: 1690 kg/m3
     mohr_coulomb: {youngs_modulus: 20 MPa, poisson_ratio: 0.3, cohesion: 25 kPa, friction_angle: 35 deg}
   tailings:
-    tags: [168]
-    density: 1870 kg/m3
     mohr_coulomb: {youngs_modulus: 20 MPa, poisson_ratio: 0.3, cohesion: 1 kPa, friction_angle: 30 deg}
     liquefied: {youngs_modulus: 5 MPa, poisson_ratio: 0.49}
   foundation:
-    tags: [170]
-    density: 1900 kg/m3
     linear_elastic: {youngs_modulus: 100 MPa, poisson_ratio: 0.3}
     counts_for_runout: false
 audit: {enforce: false}
@@ -403,7 +409,8 @@ audit: {enforce: false}
   MapConfig c = read_settings<MapConfig>(load_yaml(path), "map");
   CHECK_NOTHROW(check(c));
   CHECK(c.cell == 1.25);
-  CHECK(c.box == std::vector<double>{-340.0, 87.5, -5.0, 100.0});
+  CHECK(box_of(c.box).xmin == -340.0);
+  CHECK_FALSE(c.box.top.has_value());
   CHECK(c.liquefied_return == LiquefiedReturn::mean_stress);
   CHECK(c.materials.at("tailings").liquefied->residual_strain == 1.0);
   CHECK(c.materials.at("foundation").law.of<LinearElastic>()->youngs_modulus == 100e6);
@@ -411,16 +418,17 @@ audit: {enforce: false}
   CHECK_FALSE(c.audit.enforce);
 
   MapConfig bad = c;
-  bad.materials["embankment"].tags = {167, 168};
-  CHECK_THROWS_WITH(check(bad), Catch::Contains("tag 168 is listed twice"));
+  bad.materials["embankment"].of = {"dam", "tailings"};
+  CHECK_THROWS_WITH(check(bad), Catch::Contains("'tailings' of the section becomes two"));
   bad = c;
   bad.c_soft_ratio.reset();
   CHECK_THROWS_WITH(check(bad), Catch::Contains("c_soft_ratio is missing"));
   bad = c;
-  bad.box = {1.0, 0.0, 0.0, 1.0};
+  bad.box = {.left = 1.0, .right = 0.0, .bottom = {}, .top = {}};
   CHECK_THROWS_AS(check(bad), InputError);
   bad = c;
-  bad.compat = Compat::sordo2024;
-  CHECK_THROWS_WITH(check(bad), Catch::Contains("group sordo2024 is missing"));
+  bad.materials["sand"] = soil();
+  bad.materials["sand"].of = {"sand 1", "sand 2"};
+  CHECK_NOTHROW(check(bad));
   std::filesystem::remove(path);
 }

@@ -31,6 +31,7 @@ struct Record {
       const double slide = t > failure ? 20.0 * (t - failure) : 0.0;
       h.kinetic_energy_relative.push_back(0.5 * shaking + slide);
       h.kinetic_energy.push_back(1.5 * shaking + slide);
+      h.sliding_energy.push_back(0.5 * shaking + slide);
       const double depth = t < 8.0 ? 0.0 : std::min(16.0, 8.0 * (t - 8.0));
       for (std::size_t w = 0; w < 2; ++w) {
         h.depth[w].push_back(depth);
@@ -51,9 +52,10 @@ struct Record {
   [[nodiscard]] Record first(std::size_t n) const {
     Record r = *this;
     r.base.resize(n);
-    for (std::vector<double>* x : {&r.h.time, &r.h.kinetic_energy, &r.h.kinetic_energy_relative,
-                                   &r.h.distortion_gauss, &r.h.distortion_centre, &r.h.depth[0],
-                                   &r.h.depth[1], &r.h.depth_max[0], &r.h.depth_max[1]})
+    for (std::vector<double>* x :
+         {&r.h.time, &r.h.kinetic_energy, &r.h.kinetic_energy_relative, &r.h.sliding_energy,
+          &r.h.distortion_gauss, &r.h.distortion_centre, &r.h.depth[0], &r.h.depth[1],
+          &r.h.depth_max[0], &r.h.depth_max[1]})
       x->resize(n);
     return r;
   }
@@ -80,7 +82,8 @@ TEST_CASE("shaking alone is no failure, however strong it becomes after first li
 }
 
 TEST_CASE("the onset lies soon after the slide begins", "[transfer]") {
-  for (const EnergyFrame energy : {EnergyFrame::relative, EnergyFrame::absolute}) {
+  for (const EnergyFrame energy :
+       {EnergyFrame::sliding, EnergyFrame::relative, EnergyFrame::absolute}) {
     const Record record(11.0);
     const auto onset = find_onset({.energy = energy}, record.h, record.base);
     REQUIRE(onset);
@@ -213,7 +216,7 @@ TEST_CASE("a choice is not settled while the last frame is it", "[transfer]") {
 
 TEST_CASE("a run cannot be stopped by a rule that says nothing about its end", "[transfer]") {
   StopAtTransferConfig c;
-  c.liquefiable = {168};
+  c.liquefiable = {"tailings"};
   c.pond_surface = 30.0;
   CHECK_NOTHROW(check(c));
   c.transfer.when = TransferWhen::end;

@@ -24,7 +24,7 @@ class Column {
       : path_(std::filesystem::temp_directory_path() /
               fmt::format("flowslide-zone-{}-{}.h5", getpid(), next_++)) {
     for (std::size_t e = 0; e < 20; ++e) mesh.element_material[e] = 2;
-    FemHistoryWriter writer(path_, mesh, {});
+    FemHistoryWriter writer(path_, mesh, {{"sand", 1, 2000.0}, {"rock", 2, 1500.0}}, {});
     FemFrame gravity = rest();
     writer.set_gravity(gravity);
     for (std::size_t k = 0; k < levels.size(); ++k) {
@@ -46,6 +46,8 @@ class Column {
   [[nodiscard]] LiquefactionZone find(const ZoneConfig& config) const {
     return find_zone(FemHistory(path_), config);
   }
+
+  [[nodiscard]] FemHistory history() const { return FemHistory(path_); }
 
   QuadMesh mesh = rectangle_mesh(10, 10, 1.0, 1.0, 1);
 
@@ -69,10 +71,9 @@ class Column {
 
 ZoneConfig column_config() {
   ZoneConfig c;
-  c.liquefiable = {1};
+  c.liquefiable = {"sand"};
   c.pond_surface = 10.0;
   c.windows = {{"left", {0.0, 4.0}}, {"right", {6.0, 10.0}}};
-  c.densities = {{1, 2000.0}, {2, 1500.0}};
   c.strength.table = {{0.0, 1e3}, {100e3, 11e3}};
   c.strength.bin_width = 20e3;
   c.strength.last_bin = 60e3;
@@ -113,14 +114,50 @@ TEST_CASE("an imposed r_u gives its exact depth, zone and strength", "[transfer]
   CHECK_FALSE(is_set(zone.r_u_node[120]));
   CHECK(zone.r_u_node[5 * 11] == Approx(0.8));
   CHECK(zone.notes.front().substr(0, 8) == "11 nodes");
-  for (const Vec2& p : zone.lower_boundary) CHECK(p[1] == 4.0);
+  // r_u falls from 0.8 to 0.3 in a metre: through 0.7 at a fifth of it.
+  for (const Vec2& p : zone.lower_boundary) CHECK(p[1] == Approx(3.8));
+  for (const std::vector<double>* depth : {&zone.window_depth_any, &zone.window_depth_strong})
+    CHECK((*depth)[0] == 6.0);
+  CHECK(zone.window_depth_interpolated[0] == Approx(6.2));
+}
+
+TEST_CASE("soil above liquefied soil can keep its strength", "[transfer]") {
+  // Liquefied from y = 4 to 7, an r_u of 0.2 above.
+  const Column column({4.0});
+  const auto path =
+      std::filesystem::temp_directory_path() / fmt::format("flowslide-zone-above-{}.h5", getpid());
+  {
+    const FemHistory whole = column.history();
+    FemHistoryWriter writer(path, column.mesh, {{"sand", 1, 2000.0}, {"rock", 2, 1500.0}}, {});
+    writer.set_gravity(whole.gravity());
+    FemFrame frame = whole.frame(0);
+    for (std::size_t n = 0; n < column.mesh.num_nodes(); ++n)
+      if (const double y = column.mesh.nodes[n][1]; y > 7.5)
+        frame.pore_pressure[n] -= 0.6 * kBuoyant * (10.0 - y);
+    writer.append(frame);
+    writer.finish();
+  }
+  ZoneConfig config = column_config();
+  const LiquefactionZone all = find_zone(FemHistory(path), config);
+  config.zone = ZoneExtent::liquefied;
+  const LiquefactionZone only = find_zone(FemHistory(path), config);
+  std::filesystem::remove(path);
+  CHECK(only.lower_boundary == all.lower_boundary);
+  CHECK(only.window_depth_max == all.window_depth_max);
+  for (std::size_t e = 0; e < column.mesh.num_elements(); ++e) {
+    const double y = centroid(corners(column.mesh, column.mesh.nodes, e))[1];
+    CAPTURE(y);
+    CHECK((all.liquefied[e] == 1) == (y > 4.0));
+    CHECK((only.liquefied[e] == 1) == (y > 4.0 && y < 7.0));
+    CHECK(is_set(only.strength[e]) == (only.liquefied[e] == 1));
+  }
 }
 
 TEST_CASE("the zone of the moment can be asked for", "[transfer]") {
   ZoneConfig config = column_config();
   config.r_u.over_time = RuOverTime::instantaneous;
   const LiquefactionZone zone = Column({7.0, 4.0, 6.0}).find(config);
-  for (const Vec2& p : zone.lower_boundary) CHECK(p[1] == 6.0);
+  for (const Vec2& p : zone.lower_boundary) CHECK(p[1] == Approx(5.8));
   CHECK(std::ranges::count(zone.liquefied, 1) == 40);
 }
 
@@ -146,7 +183,6 @@ TEST_CASE("the box leaves columns out of zone and energy", "[transfer]") {
   ZoneConfig config = column_config();
   config.box.left = 2.0;
   config.box.bottom = 2.0;
-  config.densities = {{1, 2000.0}};
   const LiquefactionZone zone = Column({4.0}).find(config);
   CHECK(zone.history.kinetic_energy[0] == Approx(0.5 * 64.0 * 2000.0 * 4.0));
   CHECK(std::ranges::count(zone.liquefied, 1) == 6 * 8);
@@ -158,7 +194,6 @@ TEST_CASE("a gravity state is transferred with a zone given by the user", "[tran
   ZoneConfig config = column_config();
   config.transfer.when = TransferWhen::gravity;
   config.zone = ZoneExtent::all;
-  config.densities.clear();
   const Column column({});
   const LiquefactionZone all = column.find(config);
   CHECK(all.transfer_frame == -1);
@@ -209,8 +244,10 @@ TEST_CASE("settings that do not fit the mesh or each other are refused", "[trans
     change(c);
     return column.find(c);
   };
-  CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.liquefiable = {3}; }),
-                    Catch::Contains("no element has material 3"));
+  CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.liquefiable = {"clay"}; }),
+                    Catch::Contains("no material 'clay' (known: sand, rock)"));
+  CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.liquefiable = {"1"}; }),
+                    Catch::Contains("liquefiable: 1 is a tag") && Catch::Contains("write sand"));
   CHECK_THROWS_WITH(with([](ZoneConfig& c) {
                       c.windows = {{"pond", {-70.0, -50.0}}};
                     }),
@@ -223,12 +260,6 @@ TEST_CASE("settings that do not fit the mesh or each other are refused", "[trans
                     Catch::Contains("box holds no liquefiable element"));
   CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.base_nodes = {4711}; }),
                     Catch::Contains("no node 4711"));
-  CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.densities.pop_back(); }),
-                    Catch::Contains("material 2 of element 1 has no density"));
-  CHECK_THROWS_WITH(with([](ZoneConfig& c) {
-                      c.densities.push_back({1, 1800.0});
-                    }),
-                    Catch::Contains("given twice"));
   CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.transfer.when = TransferWhen::gravity; }),
                     Catch::Contains("write zone: all"));
   CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.zone = ZoneExtent::line; }),
@@ -241,6 +272,32 @@ TEST_CASE("settings that do not fit the mesh or each other are refused", "[trans
                     Catch::Contains("pond_surface"));
   CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.transfer = {.when = TransferWhen::at, .at = 7.0}; }),
                     Catch::Contains("outside the record"));
+}
+
+TEST_CASE("a single node decides the depth of single nodes only, and r_u above 1.2 is named",
+          "[transfer]") {
+  const Column column({7.0});
+  const auto path =
+      std::filesystem::temp_directory_path() / fmt::format("flowslide-zone-lone-{}.h5", getpid());
+  const FemHistory calm = column.history();
+  FemHistoryWriter writer(path, column.mesh, {{"sand", 1, 2000.0}, {"rock", 2, 1500.0}}, {});
+  writer.set_gravity(calm.gravity());
+  FemFrame frame = calm.frame(0);
+  frame.pore_pressure[3 * 11 + 1] += 1.5 * kBuoyant * 7.0;  // at (1, 3), 0.3 before
+  writer.append(frame);
+  writer.finish();
+  const LiquefactionZone zone = find_zone(FemHistory(path), column_config());
+  std::filesystem::remove(path);
+  CHECK(zone.window_depth_any[0] == 7.0);
+  CHECK(zone.window_depth_max[0] == 3.0);
+  CHECK(zone.window_depth_interpolated[0] == Approx(3.2));
+  CHECK(zone.window_depth_any[1] == 3.0);
+  const auto named = std::ranges::find_if(
+      zone.notes, [](const std::string& n) { return n.starts_with("r_u reaches 1.8 at node 35"); });
+  CHECK(named != zone.notes.end());
+  const LiquefactionZone quiet = column.find(column_config());
+  CHECK(std::ranges::none_of(quiet.notes,
+                             [](const std::string& n) { return n.starts_with("r_u reaches"); }));
 }
 
 TEST_CASE("Without windows the depth is that of the whole liquefiable soil", "[transfer]") {

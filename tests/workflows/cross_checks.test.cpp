@@ -33,10 +33,10 @@ SectionMesh dam() {
   return s;
 }
 
-MapMaterial soil(std::vector<int> tags, double modulus = 20e6) {
+const std::vector<HistoryMaterial> kSoils{{"tailings", 1, 1900.0}, {"dam", 2, 1900.0}};
+
+MapMaterial soil(double modulus = 20e6) {
   MapMaterial m;
-  m.tags = std::move(tags);
-  m.density = 1900.0;
   m.law.of<LinearElastic>() = LinearElastic::Params{modulus, 0.3};
   return m;
 }
@@ -44,14 +44,13 @@ MapMaterial soil(std::vector<int> tags, double modulus = 20e6) {
 MapConfig map_config() {
   MapConfig c;
   c.cell = 1.25;
-  c.materials = {{"tailings", soil({1})}, {"dam", soil({2})}};
+  c.materials = {{"tailings", soil()}, {"dam", soil()}};
   return c;
 }
 
 FlowConfig flow_config() {
   FlowConfig c;
   c.cell = 1.25;
-  c.toe = 120.0;
   c.end = 10.0;
   c.left_roller = 0.0;
   return c;
@@ -71,31 +70,36 @@ Answer ask(const std::function<void(FlowConfig&)>& change,
            void (*rule)(const FlowConfig&, const Soil&, Findings&)) {
   FlowConfig c = flow_config();
   Findings control, found;
-  rule(c, soil_of(dam(), map_config()), control);
+  rule(c, soil_of(dam(), map_config(), kSoils), control);
   CHECK(control.errors.empty());
   CHECK(control.warnings.empty());
   change(c);
-  rule(c, soil_of(dam(), map_config()), found);
+  rule(c, soil_of(dam(), map_config(), kSoils), found);
   return answer(found);
 }
 
 }  // namespace
 
-TEST_CASE("The soil of a transfer is what its box and its tags hold") {
-  Soil s = soil_of(dam(), map_config());
+TEST_CASE("The soil of a transfer is what its box and its materials hold") {
+  Soil s = soil_of(dam(), map_config(), kSoils);
   CHECK(s.area == Approx(3600.0));
   CHECK(s.counted.right == 120.0);
   MapConfig c = map_config();
   c.materials["dam"].counts_for_runout = false;
-  c.box = {10.0, 200.0, 5.0, 200.0};
-  s = soil_of(dam(), c);
+  c.box = {.left = 10.0, .right = 200.0, .bottom = 5.0, .top = {}};
+  s = soil_of(dam(), c, kSoils);
   CHECK(s.counted.right == 100.0);
   CHECK(s.all.left == 10.0);
   CHECK(s.all.height() == 20.0);  // the lowest row has its centres on the edge of the box
 }
 
-TEST_CASE("The toe is the end of the section") {
-  const auto at = [](double x) { return ask([x](FlowConfig& c) { c.toe = x; }, check_toe); };
+TEST_CASE("A toe that a report gives is near the end of the section") {
+  const auto at = [](double x) {
+    Findings found;
+    check_toe(x, flow_config(), soil_of(dam(), map_config(), kSoils), found);
+    return answer(found);
+  };
+  CHECK(at(120.0).errors.empty());
   CHECK_THAT(at(75e3).errors, Contains("74880 m beyond the downstream end"));
   CHECK_THAT(at(200.0).warnings, Contains("80 m beyond") && Contains("reported as 0"));
   CHECK(at(140.0).warnings.empty());
@@ -114,10 +118,7 @@ TEST_CASE("Rollers and outlets stand outside the soil") {
   CHECK(with([](FlowConfig& c) { c.right_roller = 300.0; }).errors.empty());
   CHECK_THAT(with([](FlowConfig& c) { c.outlet.right = 100.0; }).errors, Contains("outlet.right"));
   CHECK_THAT(with([](FlowConfig& c) { c.outlet.bottom = 5.0; }).errors, Contains("outlet.bottom"));
-  CHECK_THAT(with([](FlowConfig& c) {
-               c.outlet.right = 130.0;
-               c.toe = 130.0;
-             }).errors,
+  CHECK_THAT(with([](FlowConfig& c) { c.outlet.right = 120.0; }).errors,
              Contains("runout would be 0"));
   CHECK(with([](FlowConfig& c) { c.outlet.right = 500.0; }).errors.empty());
 }
@@ -163,7 +164,7 @@ TEST_CASE("More points than the memory holds are refused") {
     MapConfig c = map_config();
     c.cell = cell;
     Findings found;
-    check_memory(c, soil_of(dam(), c), width, 8e9, found);
+    check_memory(c, soil_of(dam(), c, kSoils), width, 8e9, found);
     return answer(found);
   };
   CHECK(with(1.25, kUnset).errors.empty());
@@ -175,31 +176,30 @@ TEST_CASE("Materials of the transfer have plausible numbers") {
   const auto with = [](auto change) {
     MapConfig c = map_config();
     Findings control, found;
-    check_map_materials(c, dam(), soil_of(dam(), c), control);
+    check_map_materials(c, kSoils, soil_of(dam(), c, kSoils), control);
     CHECK(control.errors.empty());
     CHECK(control.warnings.empty());
     change(c.materials["tailings"]);
-    check_map_materials(c, dam(), soil_of(dam(), c), found);
+    check_map_materials(c, kSoils, soil_of(dam(), c, kSoils), found);
     return answer(found);
   };
-  CHECK_THAT(with([](MapMaterial& m) { m.density = 500.0; }).errors,
-             Contains("materials.tailings.density is 500 kg/m3"));
-  CHECK_THAT(with([](MapMaterial& m) { m.density = 5500.0; }).errors, Contains("5500"));
-  CHECK_THAT(with([](MapMaterial& m) { m.density = 1000.0; }).warnings, Contains("usual"));
-  CHECK_THAT(with([](MapMaterial& m) { m = soil({1}, 20.0); }).errors, Contains("youngs_modulus"));
-  CHECK_THAT(with([](MapMaterial& m) { m = soil({1}, 4e5); }).errors, Contains("pressed flat"));
-  CHECK_THAT(with([](MapMaterial& m) { m = soil({1}, 2e6); }).warnings, Contains("settle by 28 %"));
-  CHECK_THAT(with([](MapMaterial& m) { m.tags = {1, 7}; }).warnings, Contains("tag 7"));
+  CHECK_THAT(with([](MapMaterial& m) { m = soil(20.0); }).errors, Contains("youngs_modulus"));
+  CHECK_THAT(with([](MapMaterial& m) { m = soil(4e5); }).errors, Contains("pressed flat"));
+  CHECK_THAT(with([](MapMaterial& m) { m = soil(2e6); }).warnings, Contains("settle by 28 %"));
+  CHECK_THROWS_WITH(with([](MapMaterial& m) { m.of = {"clay"}; }),
+                    Contains("materials.tailings: the section has no material 'clay'"));
 }
 
-TEST_CASE("Densities of one soil agree between stages") {
+TEST_CASE("Imported densities are plausible") {
   const auto with = [](double density) {
     Findings found;
-    compare_densities(map_config(), {{1, density}, {9, 1.0}}, "fem.run", found);
-    return answer(found).warnings;
+    check_densities({{"tailings", 1, density}}, found);
+    return answer(found);
   };
-  CHECK(with(1900.0).empty());
-  CHECK_THAT(with(1700.0), Contains("fem.run has 1700 kg/m3") && Contains("tag 1"));
+  CHECK(with(1900.0).warnings.empty());
+  CHECK_THAT(with(500.0).errors, Contains("materials.tailings.density is 500 kg/m3"));
+  CHECK_THAT(with(5500.0).errors, Contains("5500"));
+  CHECK_THAT(with(1000.0).warnings, Contains("usual"));
 }
 
 TEST_CASE("Soils and water of the finite elements have plausible numbers") {
@@ -274,10 +274,10 @@ TEST_CASE("Residual strength is a small share of the stress it belongs to") {
 TEST_CASE("Depths count from a pond above the soil") {
   const auto at = [](double y) {
     ZoneConfig c;
-    c.liquefiable = {1};
+    c.liquefiable = {"tailings"};
     c.pond_surface = y;
     Findings found;
-    check_pond(c, dam().mesh, found);
+    check_pond(c, dam().mesh, kSoils, found);
     return answer(found).warnings;
   };
   CHECK(at(30.0).empty());
@@ -288,7 +288,7 @@ TEST_CASE("Depths count from a pond above the soil") {
 TEST_CASE("The shaking ends by the rule that chooses the transfer") {
   StopAtTransferConfig stop;
   ZoneConfig zone;
-  stop.liquefiable = zone.liquefiable = {1};
+  stop.liquefiable = zone.liquefiable = {"tailings"};
   stop.pond_surface = zone.pond_surface = 30.0;
   Findings control, found;
   compare_transfer_rules(stop, zone, control);
@@ -336,7 +336,7 @@ TEST_CASE("Terrain lies under the dam and has heights there") {
     c.extrude = ExtrudeSettings{.width = 40.0};
     c.ground.terrain = TerrainSettings{{scratch / file}, origin, 0.0, height};
     Findings found;
-    check_terrain(c, soil_of(dam(), map_config()), found);
+    check_terrain(c, soil_of(dam(), map_config(), kSoils), found);
     return answer(found);
   };
   const std::array<double, 2> there{500100.0, 7000100.0};
@@ -354,7 +354,7 @@ TEST_CASE("Terrain lies under the dam and has heights there") {
 
 TEST_CASE("Every element of a transfer has a material, and soil that liquefies a law for it") {
   ZoneConfig zone;
-  zone.liquefiable = {1};
+  zone.liquefiable = {"tailings"};
   zone.zone = ZoneExtent::automatic;
   const auto with = [&](auto change) {
     MapConfig c = map_config();
@@ -363,19 +363,19 @@ TEST_CASE("Every element of a transfer has a material, and soil that liquefies a
                                                                  .strength = {},
                                                                  .soft_strength = {}};
     Findings control, found;
-    check_map_tags(c, dam(), zone, control);
+    check_map_names(c, dam(), kSoils, zone, control);
     CHECK(control.errors.empty());
     CHECK(control.warnings.empty());
     change(c);
-    check_map_tags(c, dam(), zone, found);
+    check_map_names(c, dam(), kSoils, zone, found);
     return answer(found);
   };
   CHECK_THAT(with([](MapConfig& c) { c.materials.erase("dam"); }).errors,
-             Contains("element 11 has the material tag 2"));
+             Contains("element 11 is of the material 'dam'"));
   CHECK(with([](MapConfig& c) {
           c.materials.erase("dam");
-          c.box = {0.0, 100.0, 0.0, 30.0};
+          c.box = {.left = 0.0, .right = 100.0, .bottom = {}, .top = {}};
         }).errors.empty());
   CHECK_THAT(with([](MapConfig& c) { c.materials["tailings"].liquefied.reset(); }).warnings,
-             Contains("tag 1 can liquefy"));
+             Contains("'tailings' can liquefy"));
 }

@@ -49,6 +49,7 @@ stages:
     uses: import.opensees
     with:
       mesh: {nodes: run/recorders/nodeinfo.dat, elements: run/recorders/elementinfo.dat}
+      materials: {sand: {tag: 5, density: 1900 kg/m3}}
       units: {length: m, time: s, stress: kPa}
       gravity:
         stress: run/recorders/Gstress.out
@@ -161,18 +162,16 @@ TEST_CASE("a workflow that is interrupted in fem.run continues there", "[workflo
 
 namespace {
 
-/// A steep slope of loose sand; in one text with settings of the transfer rule for both stages.
+/// A steep slope of loose sand; with the settings of the zone for both stages.
 std::string slope(bool stops, const char* pga) {
   const std::string rule = R"(
-      liquefiable: [5]
+      liquefiable: [sand]
       pond_surface: 9 m
       windows: {all: {from: 0 m, to: 20 m}}
-      densities: [[5, 1900 kg/m3]]
       r_u: {floor: 4 kPa}
       automatic: {smoothing: 0.4 s, growth: 1, sustain: 0.1 s, distortion_limit: 0.99}
 )";
-  std::string nested = "      stop_at_transfer:";
-  for (const char c : rule) nested += c == '\n' ? std::string("\n  ") : std::string(1, c);
+  const std::string nested = "      stop_at_transfer: \"${stages.zone.with}\"";
   return fmt::format(R"(schema: 1
 name: slope
 stages:

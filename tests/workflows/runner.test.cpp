@@ -95,16 +95,14 @@ TEST_CASE("a damaged or missing result is made anew", "[workflows]") {
   CHECK(read_text_file(file) == "3\n");
 }
 
-TEST_CASE("result.json holds the promised names and what each stage took", "[workflows]") {
+TEST_CASE("result.json holds what stages found and what each of them took", "[workflows]") {
   Bench bench;
   bench.run();
   bench.run({"stages.sum.with.factor=2"});
   const json r = bench.result();
-  for (const char* name : {"runout_m", "liquefaction_depth_pond_m", "liquefaction_depth_crest_m",
-                           "transfer_time_s", "mass_error", "energy_error", "wall_s", "stages"})
-    CHECK(r.contains(name));
+  for (const char* name : {"runout_m", "wall_s", "stages", "headlines"}) CHECK(r.contains(name));
   CHECK(r["runout_m"] == 1.5);  // both numbers say the same
-  CHECK(r["transfer_time_s"].is_null());
+  CHECK_FALSE(r.contains("transfer_time_s"));  // no stage of this workflow knows of it
   CHECK(r["stages"]["one"]["cached"] == true);
   CHECK(r["stages"]["sum"]["cached"] == false);
   CHECK(r["stages"]["sum"]["facts"]["sum"] == 6.0);

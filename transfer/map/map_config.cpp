@@ -13,13 +13,20 @@ constexpr std::array<std::string_view, 3> kLiquefiedReturnNames{"vertical_stress
 constexpr std::array<std::string_view, 2> kStrengthNames{"interpolated", "element"};
 constexpr std::array<std::string_view, 3> kInitialStrainNames{"plastic", "total", "zero"};
 constexpr std::array<std::string_view, 2> kBaseNames{"bottom_left", "mean"};
-constexpr std::array<std::string_view, 2> kCompatNames{"none", "sordo2024"};
 
 }  // namespace
 
 void Schema<MapMaterial>::describe(FieldVisitor& v, MapMaterial& m) {
-  v.integers("tags", m.tags, "element material tags of the finite-element model");
-  v.quantity("density", m.density, Dim::density, {.above = 0.0}, "density before deformation");
+  v.moved(
+      "tags",
+      "(materials go by their names) remove it; 'tailings: {...}' is the material 'tailings' of "
+      "the section, and 'of: [clay, silt]' makes one of two");
+  v.moved(
+      "density",
+      "(the shaking brings the densities of its materials) remove it; it is that of fem.run, or "
+      "of import.opensees with 'materials: {tailings: {tag: 168, density: 1870 kg/m3}}'");
+  v.texts("of", m.of,
+          "materials of the section that become this one; left out: that of the same name");
   describe_laws(v, m.law);
   v.group("liquefied", m.liquefied,
           "law of the part that liquefies; strength and soft_strength come with each point");
@@ -41,9 +48,11 @@ void Schema<MapConfig>::describe(FieldVisitor& v, MapConfig& c) {
              "radius of the stress interpolation in element sizes");
   v.choice("mapped_stress", c.mapped_stress, kMappedStressNames,
            "which stress is interpolated; the other follows with the pore pressure of the point");
-  v.numbers("box", c.box, Dim::length,
-            "[xmin, xmax, ymin, ymax] of what becomes points, after removal of the base motion; "
-            "empty: the whole mesh");
+  v.moved("box",
+          "(its sides have names, as in transfer.zone) write 'box: {left: -340 m, right: 87.5 m, "
+          "bottom: -5 m, top: 100 m}', or 'box: \"${stages.zone.with.box}\"'",
+          FieldVisitor::Moved::list);
+  v.group("box", c.box, "what becomes points, after removal of the base motion");
   v.flag("remove_base_motion", c.remove_base_motion,
          "positions, displacements and velocities relative to the base of the model");
   v.choice(
@@ -67,24 +76,24 @@ void Schema<MapConfig>::describe(FieldVisitor& v, MapConfig& c) {
       "elastic part, all of it, or none");
   v.table("materials", c.materials, "materials of the finite-element model by name");
   v.group("audit", c.audit, Schema<AuditLimits>::doc);
-  v.choice("compat", c.compat, kCompatNames,
-           "sordo2024: repeat the published script, defects included");
-  v.group("sordo2024", c.sordo2024, "settings of compat: sordo2024");
+  for (const char* key : {"compat", "sordo2024"})
+    v.moved(
+        key,
+        "(the published script is a stage of its own) write 'uses: transfer.sordo2024' with the "
+        "settings of the group sordo2024, cell and grid_origin");
+}
+
+std::vector<std::string> sources_of(const std::string& name, const MapMaterial& material) {
+  return material.of.empty() ? std::vector{name} : material.of;
+}
+
+Box box_of(const SectionBox& box) {
+  constexpr double far = 1e300;
+  return {box.left.value_or(-far), box.right.value_or(far), box.bottom.value_or(-far),
+          box.top.value_or(far)};
 }
 
 void check(const MapConfig& c) {
-  if (c.compat == Compat::sordo2024) {
-    validate(
-        c.sordo2024.has_value(),
-        "map: compat is sordo2024 but the group sordo2024 is missing (the script's constants are "
-        "unknown). Add sordo2024: {{...}}");
-    check(*c.sordo2024);
-    return;
-  }
-  validate(
-      !c.sordo2024.has_value(),
-      "map: the group sordo2024 is given but compat is none (it would have no effect). Remove it "
-      "or write compat: sordo2024");
   validate(!c.materials.empty(),
            "map: no materials (elements would have no density and no law). Add materials: {{...}}");
   validate(
@@ -92,23 +101,20 @@ void check(const MapConfig& c) {
       "map: points_per_cell {} with seeding gauss (rules go up to 4 points per direction). Use 4 "
       "or less, or seeding: lattice",
       c.points_per_cell);
-  validate(c.box.empty() || c.box.size() == 4,
-           "map: box has {} numbers (four are needed). Write [xmin, xmax, ymin, ymax]",
-           c.box.size());
-  if (c.box.size() == 4) {
-    validate(c.box[0] < c.box[1] && c.box[2] < c.box[3],
-             "map: box [{}, {}, {}, {}] is empty (order is xmin, xmax, ymin, ymax)", c.box[0],
-             c.box[1], c.box[2], c.box[3]);
-  }
-  std::set<int> seen;
+  const Box box = box_of(c.box);
+  validate(
+      box.xmin < box.xmax && box.ymin < box.ymax,
+      "map: box from x = {:g} to {:g} m and y = {:g} to {:g} m is empty (left lies below right, "
+      "bottom below top)",
+      box.xmin, box.xmax, box.ymin, box.ymax);
+  std::set<std::string> seen;
   for (const auto& [name, m] : c.materials) {
-    validate(!m.tags.empty(), "map: material '{}' has no tags (no element would be of it)", name);
-    for (const int tag : m.tags)
+    for (const std::string& source : sources_of(name, m))
       validate(
-          seen.insert(tag).second,
-          "map: element material tag {} is listed twice (an element has one material); the second "
-          "is in '{}'",
-          tag, name);
+          seen.insert(source).second,
+          "map: the material '{}' of the section becomes two (an element has one material); the "
+          "second is '{}'",
+          source, name);
     make_material(m.law, name);
     validate(!m.liquefied || c.c_soft_ratio,
              "map: c_soft_ratio is missing (material '{}' may liquefy and softens to c_soft = "

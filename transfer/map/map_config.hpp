@@ -3,7 +3,8 @@
 #include "constitutive/materials.hpp"
 #include "model/mesh.hpp"
 #include "transfer/audit/audit_limits.hpp"
-#include "transfer/sordo2024/compat_sordo2024.hpp"
+#include "transfer/seeding/polygon.hpp"
+#include "transfer/zone/section_box.hpp"
 
 #include <array>
 #include <cstdint>
@@ -19,17 +20,14 @@ namespace flowslide {
 enum class Seeding { lattice, gauss };
 enum class MappedStress { total, effective };
 enum class FrictionStress { effective, total };
-enum class LiquefiedReturn { vertical_stress, mean_stress, none };
 enum class StrengthPerPoint { interpolated, element };
 enum class InitialStrain { plastic, total, zero };
 enum class BaseReference { bottom_left, mean };
-enum class Compat { none, sordo2024 };
 
 /// A material of the finite-element model and what becomes of it.
 struct MapMaterial {
-  std::vector<int> tags;    ///< element material tags of the source program
-  double density = kUnset;  ///< in the reference configuration [kg/m3]
-  MaterialSettings law;     ///< of soil that has not liquefied
+  std::vector<std::string> of;  ///< materials of the section; empty: that of the same name
+  MaterialSettings law;         ///< of soil that has not liquefied
   std::optional<ResidualStrength::Params> liquefied;  ///< S_r and c_soft come with each point
   bool counts_for_runout = true;
 };
@@ -42,7 +40,7 @@ struct MapConfig {
   double sliver_fraction = 0.01;
   double mls_radius = 1.9;
   MappedStress mapped_stress = MappedStress::total;
-  std::vector<double> box;  ///< xmin xmax ymin ymax [m]; empty: everything
+  SectionBox box;  ///< of what becomes points
   bool remove_base_motion = true;
   BaseReference base = BaseReference::bottom_left;
   FrictionStress friction_acts_on = FrictionStress::effective;
@@ -52,11 +50,15 @@ struct MapConfig {
   InitialStrain initial_strain = InitialStrain::plastic;
   std::map<std::string, MapMaterial> materials;
   AuditLimits audit;
-  Compat compat = Compat::none;
-  std::optional<SordoConfig> sordo2024;  ///< settings of compat: sordo2024
 };
 
-/// Relations that ranges cannot express: no tag twice, one law per material, box in order, c_soft
+/// The materials of the section that become the one of that name.
+std::vector<std::string> sources_of(const std::string& name, const MapMaterial& material);
+
+/// The box with its open sides far away.
+Box box_of(const SectionBox& box);
+
+/// Relations that ranges cannot express: no source twice, one law per material, box in order, c_soft
 /// given where soil may liquefy. Throws InputError.
 void check(const MapConfig& config);
 

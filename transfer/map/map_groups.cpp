@@ -1,5 +1,6 @@
 #include "transfer/map/map_groups.hpp"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -9,7 +10,7 @@ namespace {
 MapGroup make_group(const std::string& name, const AnyMaterial& law, const MapMaterial& material,
                     std::int32_t family, bool liquefied) {
   LawParameters p = to_parameters(law);
-  return {{name, std::move(p.law), std::move(p.parameters), material.counts_for_runout},
+  return {{name, std::move(p.law), std::move(p.parameters), material.counts_for_runout, liquefied},
           law,
           family,
           liquefied};
@@ -28,19 +29,35 @@ struct Family {
   std::int32_t dry = -1, liquefied = -1;  ///< groups
 };
 
+/// Families by the tags of the section.
+std::map<std::int32_t, std::int32_t> families_by_tag(const std::vector<HistoryMaterial>& materials,
+                                                     const MapConfig& config) {
+  std::map<std::int32_t, std::int32_t> family;
+  std::int32_t k = 0;
+  for (const auto& [name, material] : config.materials) {
+    for (const std::string& source : sources_of(name, material))
+      family[find_material(materials, source, "map: materials." + name).tag] = k;
+    ++k;
+  }
+  return family;
+}
+
 /// The family of an element's soil, or -1 outside the box. Throws InputError for soil of the box
-/// that no material lists, and for liquefied soil without a law.
+/// that becomes no material, and for liquefied soil without a law.
 std::int32_t family_of(std::size_t e, const QuadMesh& mesh, const std::vector<Vec2>& positions,
                        const Box& box, const LiquefactionZone& zone,
-                       const std::map<int, std::int32_t>& family_of_tag,
-                       const std::vector<Family>& families) {
+                       const std::map<std::int32_t, std::int32_t>& family_of_tag,
+                       const std::vector<Family>& families,
+                       const std::vector<HistoryMaterial>& materials) {
   const auto found = family_of_tag.find(mesh.element_material[e]);
   if (found == family_of_tag.end()) {
+    const std::int32_t tag = mesh.element_material[e];
+    const auto of_tag = std::find_if(materials.begin(), materials.end(),
+                                     [tag](const HistoryMaterial& m) { return m.tag == tag; });
     validate(!touches(box, corners(mesh, positions, e)),
-             "map: element {} has material tag {}, which no material lists (its mass and law are "
-             "unknown). Add the tag to the tags of a material, or leave the element outside the "
-             "box",
-             mesh.element_tags[e], mesh.element_material[e]);
+             "map: element {} is of the material '{}', which is not among materials (its law is "
+             "unknown). Add it, or leave the element outside the box",
+             mesh.element_tags[e], of_tag == materials.end() ? "?" : of_tag->name);
     return -1;
   }
   const Family& f = families[static_cast<std::size_t>(found->second)];
@@ -54,28 +71,24 @@ std::int32_t family_of(std::size_t e, const QuadMesh& mesh, const std::vector<Ve
 
 }  // namespace
 
-MapGroups group_elements(const QuadMesh& mesh, const std::vector<Vec2>& positions, const Box& box,
+MapGroups group_elements(const QuadMesh& mesh, const std::vector<HistoryMaterial>& materials,
+                         const std::vector<Vec2>& positions, const Box& box,
                          const LiquefactionZone& zone, const MapConfig& config) {
   std::vector<Family> families;
-  std::map<int, std::int32_t> family_of_tag;
-  for (const auto& [name, material] : config.materials) {
-    for (const int tag : material.tags)
-      family_of_tag[tag] = static_cast<std::int32_t>(families.size());
-    families.push_back({&name, &material});
-  }
+  for (const auto& [name, material] : config.materials) families.push_back({&name, &material});
+  const std::map<std::int32_t, std::int32_t> family_of_tag = families_by_tag(materials, config);
 
   MapGroups result;
   const std::size_t n = mesh.num_elements();
   result.group.assign(n, -1);
   result.family.assign(n, -1);
-  result.density.assign(n, 0.0);
+  result.density = element_densities(mesh, materials);
   for (std::size_t e = 0; e < n; ++e) {
     const std::int32_t k =
-        family_of(e, mesh, positions, box, zone, family_of_tag, families);
+        family_of(e, mesh, positions, box, zone, family_of_tag, families, materials);
     if (k < 0) continue;
     Family& f = families[static_cast<std::size_t>(k)];
     result.family[e] = k;
-    result.density[e] = f.material->density;
     f.has_liquefied = f.has_liquefied || zone.liquefied[e];
   }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include "constitutive/materials.hpp"
+#include "model/history_material.hpp"
 #include "model/mesh.hpp"
 #include "model/particle_set.hpp"
 #include "model/zone.hpp"
@@ -26,12 +27,13 @@ struct MapGroups {
   std::vector<MapGroup> groups;      ///< index = ParticleSet::material
   std::vector<std::int32_t> group;   ///< elements; -1: unknown material outside the box
   std::vector<std::int32_t> family;  ///< elements; -1 likewise
-  std::vector<double> density;       ///< elements [kg/m3]; 0 for unknown material
+  std::vector<double> density;       ///< elements [kg/m3]
 };
 
-/// Throws InputError for an element inside the box whose tag no material lists, and for liquefied
-/// elements whose material has no law `liquefied`.
-MapGroups group_elements(const QuadMesh& mesh, const std::vector<Vec2>& positions, const Box& box,
+/// Throws InputError for a name that the section does not have, for an element inside the box whose
+/// material becomes none, and for liquefied elements whose material has no law `liquefied`.
+MapGroups group_elements(const QuadMesh& mesh, const std::vector<HistoryMaterial>& materials,
+                         const std::vector<Vec2>& positions, const Box& box,
                          const LiquefactionZone& zone, const MapConfig& config);
 
 }  // namespace flowslide

@@ -1,10 +1,10 @@
 #include "transfer/map/map_state.hpp"
 
 #include "transfer/map/map_fields.hpp"
-#include "transfer/map/map_sordo2024.hpp"
-#include "transfer/map/yield_return.hpp"
+#include "transfer/seeding/toe.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <numeric>
 
@@ -32,56 +32,26 @@ void check_zone(const QuadMesh& mesh, const LiquefactionZone& zone) {
            zone.liquefied.size(), mesh.num_elements());
 }
 
-Box box_of(const MapConfig& config) {
-  if (config.box.size() == 4) return {config.box[0], config.box[1], config.box[2], config.box[3]};
-  const double big = 1e300;
-  return {-big, big, -big, big};
-}
-
 Stress<2> in_plane(const std::array<double, 6>& s) { return {{s[0], s[1], s[2], s[3]}}; }
 
-/// What one material's law says about the stress of its points.
-struct LawReturn {
-  const MapConfig& config;
-  double before = 0.0, after = 0.0;
-
-  /// Laws whose stress is what their first step makes of it.
-  template <class M>
-  Stress<2> operator()(const Material<M>&, const ParticleSet& p, std::size_t i) {
-    return in_plane(p.stress[i]);
-  }
-  Stress<2> operator()(const Material<MohrCoulomb>& m, const ParticleSet& p, std::size_t i) {
-    const MohrCoulomb::Constants constants = MohrCoulomb::constants(m.params, 1.0);
-    MohrCoulomb::State state = MohrCoulomb::initial_state(m.params);
-    state.plastic_strain = p.history.at("plastic_strain")[i];
-    state.pore_pressure = p.pore_pressure[i];
-    const Stress<2> total = in_plane(p.stress[i]);
-    const Stress<2> returned = return_mohr_coulomb(constants, state, total);
-    const auto violation = [&](Stress<2> s) {
-      for (int c = 0; c < 3; ++c) s[c] += state.pore_pressure;
-      return relative_violation(MohrCoulomb::surface(constants, state), s);
-    };
-    before = violation(total);
-    after = violation(returned);
-    return returned;
-  }
-  Stress<2> operator()(const Material<ResidualStrength>& m, const ParticleSet& p, std::size_t i) {
-    const ResidualStrength::Constants constants = ResidualStrength::constants(m.params, 1.0);
-    ResidualStrength::State state = ResidualStrength::initial_state(m.params);
-    state.plastic_strain = p.history.at("plastic_strain")[i];
-    if (p.history.at("strength")[i] > 0.0) {
-      state.strength = p.history.at("strength")[i];
-      state.soft_strength = p.history.at("soft_strength")[i];
+/// The state in which a law takes a point over, as the runout will.
+template <class M>
+typename M::State state_of(const Material<M>& m, const ParticleSet& p, std::size_t i) {
+  typename M::State state = M::initial_state(m.params);
+  if constexpr (M::state_names.size() > 0) {
+    auto numbers = std::bit_cast<std::array<double, M::state_names.size()>>(state);
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      const std::string name(M::state_names[k]);
+      const auto given = p.history.find(name);
+      if (name == "pore_pressure")
+        numbers[k] = p.pore_pressure[i];
+      else if (given != p.history.end() && (!name.ends_with("strength") || given->second[i] > 0.0))
+        numbers[k] = given->second[i];
     }
-    const double strength = ResidualStrength::present_strength(constants, state);
-    const Stress<2> total = in_plane(p.stress[i]);
-    const Stress<2> returned =
-        return_liquefied(config.liquefied_return, strength, constants.tension_cutoff, total);
-    before = relative_violation(strength, constants.tension_cutoff, total);
-    after = relative_violation(strength, constants.tension_cutoff, returned);
-    return returned;
+    state = std::bit_cast<typename M::State>(numbers);
   }
-};
+  return state;
+}
 
 void return_stresses(ParticleSet& p, const std::vector<MapGroup>& groups, const MapConfig& config,
                      const Progress& progress, TransferAudit& audit) {
@@ -89,17 +59,20 @@ void return_stresses(ParticleSet& p, const std::vector<MapGroup>& groups, const 
   for (std::size_t i = 0; i < p.size(); ++i) {
     progress.poll();
     const auto g = static_cast<std::size_t>(p.material[i]);
-    LawReturn law{config};
-    const Stress<2> returned =
-        std::visit([&](const auto& m) { return law(m, p, i); }, groups[g].law);
+    const AdmissibleStress carried = std::visit(
+        [&]<class M>(const Material<M>& m) {
+          return M::admissible(M::constants(m.params, 1.0), state_of(m, p, i),
+                               in_plane(p.stress[i]), config.liquefied_return);
+        },
+        groups[g].law);
     AuditMaterial& m = audit.materials[g];
     ++m.points;
     m.volume += p.volume[i];
     m.mass += p.mass[i];
-    if (law.before > config.audit.yield) ++m.returned;
-    m.violation_before = std::max(m.violation_before, law.before);
-    m.violation_after = std::max(m.violation_after, law.after);
-    for (int c = 0; c < 4; ++c) p.stress[i][c] = returned[c];
+    if (carried.before > config.audit.yield) ++m.returned;
+    m.violation_before = std::max(m.violation_before, carried.before);
+    m.violation_after = std::max(m.violation_after, carried.after);
+    for (int c = 0; c < 4; ++c) p.stress[i][c] = carried.stress[c];
   }
 }
 
@@ -108,6 +81,16 @@ SeedSet place_points(const SeedDomain& domain, const MapConfig& config, const Pr
   return seed_lattice(
       domain, {config.cell / config.points_per_cell, config.grid_origin, config.sliver_fraction},
       progress);
+}
+
+/// Elements whose soil counts for the runout.
+std::vector<std::uint8_t> counted(const MapGroups& groups) {
+  std::vector<std::uint8_t> counts(groups.group.size());
+  for (std::size_t e = 0; e < counts.size(); ++e) {
+    const std::int32_t g = groups.group[e];
+    counts[e] = g >= 0 && groups.groups[static_cast<std::size_t>(g)].spec.counts_for_runout;
+  }
+  return counts;
 }
 
 void copy_counts(const SeedSet& seeds, const MapCounts& counts, AuditCounts& out) {
@@ -122,15 +105,16 @@ void copy_counts(const SeedSet& seeds, const MapCounts& counts, AuditCounts& out
 
 }  // namespace
 
-MapResult map_state(const QuadMesh& mesh, const FemFrame& gravity, const FemFrame* shaking,
-                    const LiquefactionZone& zone, const MapConfig& config,
-                    const Progress& progress) {
+MapResult map_state(const QuadMesh& mesh, const std::vector<HistoryMaterial>& materials,
+                    const FemFrame& gravity, const FemFrame* shaking, const LiquefactionZone& zone,
+                    const MapConfig& config, const Progress& progress) {
   check(config);
+  check(mesh, materials);
   check_zone(mesh, zone);
   check_lengths(mesh, gravity, "state at rest");
   if (shaking) check_lengths(mesh, *shaking, "frame of transfer");
   const FemFrame& frame = shaking ? *shaking : gravity;
-  const Box box = box_of(config);
+  const Box box = box_of(config.box);
 
   MappedState state{
       mesh, gravity, frame, zone, mesh.nodes, base_motion(mesh, frame, box, config), !shaking};
@@ -142,12 +126,12 @@ MapResult map_state(const QuadMesh& mesh, const FemFrame& gravity, const FemFram
     }
   }
 
-  const MapGroups groups = group_elements(mesh, state.positions, box, zone, config);
+  const MapGroups groups = group_elements(mesh, materials, state.positions, box, zone, config);
   const SeedDomain domain{mesh, state.positions, groups.density, groups.group, box};
   const SeedSet seeds = place_points(domain, config, progress);
-  validate(
-      !seeds.seeds.empty(),
-      "map: no element lies inside the box (there is nothing to transfer). Check box and tags");
+  validate(!seeds.seeds.empty(),
+           "map: no element lies inside the box (there is nothing to transfer). Check box and "
+           "materials");
 
   MapResult result;
   ParticleSet& p = result.particles;
@@ -155,6 +139,7 @@ MapResult map_state(const QuadMesh& mesh, const FemFrame& gravity, const FemFram
   p = map_fields(state, seeds, groups, config, progress, counts);
   std::iota(p.id.begin(), p.id.end(), std::int64_t{0});
   for (const MapGroup& g : groups.groups) p.materials.push_back(g.spec);
+  p.toe = toe_of(mesh, counted(groups), box);
 
   const double full_cell = config.seeding == Seeding::gauss ? 0.5 : 0.95;
   TransferAudit& audit = result.audit;
@@ -182,20 +167,16 @@ MapResult map_state(const QuadMesh& mesh, const FemFrame& gravity, const FemFram
 
 MapResult map_state(const FemHistory& history, const LiquefactionZone& zone,
                     const MapConfig& config, const Progress& progress) {
-  if (config.compat == Compat::sordo2024) {
-    check(config);
-    return map_sordo2024_audited(history, config);
-  }
   const FemFrame& gravity = history.gravity();
-  if (zone.transfer_frame < 0) 
-    return map_state(history.mesh(), gravity, nullptr, zone, config, progress);
+  if (zone.transfer_frame < 0)
+    return map_state(history.mesh(), history.materials(), gravity, nullptr, zone, config, progress);
   validate(static_cast<std::size_t>(zone.transfer_frame) < history.times().size(),
            "map: the zone names frame {} but the history has {} (it belongs to another history). "
            "Run the "
            "stage transfer.zone on this history",
            zone.transfer_frame, history.times().size());
   const FemFrame frame = history.frame(static_cast<std::size_t>(zone.transfer_frame));
-  return map_state(history.mesh(), gravity, &frame, zone, config, progress);
+  return map_state(history.mesh(), history.materials(), gravity, &frame, zone, config, progress);
 }
 
 }  // namespace flowslide

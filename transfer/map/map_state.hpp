@@ -22,8 +22,8 @@ MapResult map_state(const FemHistory& history, const LiquefactionZone& zone,
                     const MapConfig& config, const Progress& progress = {});
 
 /// The same from states in memory; `shaking` null transfers the state at rest.
-MapResult map_state(const QuadMesh& mesh, const FemFrame& gravity, const FemFrame* shaking,
-                    const LiquefactionZone& zone, const MapConfig& config,
-                    const Progress& progress = {});
+MapResult map_state(const QuadMesh& mesh, const std::vector<HistoryMaterial>& materials,
+                    const FemFrame& gravity, const FemFrame* shaking, const LiquefactionZone& zone,
+                    const MapConfig& config, const Progress& progress = {});
 
 }  // namespace flowslide

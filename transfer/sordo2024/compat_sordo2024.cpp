@@ -41,29 +41,27 @@ void check_sizes(const QuadMesh& mesh, const FemFrame& f, const char* what, bool
                                   f.velocity.size() == mesh.num_nodes()));
   validate(nodes,
            "the {} of the history lacks pore pressure, displacement or velocity of the {} nodes "
-           "(compat: sordo2024 transfers them) import these recorders as well",
+           "(the script transfers them) import these recorders as well",
            what, mesh.num_nodes());
-  validate(
-      f.stress.size() == mesh.num_elements() && f.strain.size() == mesh.num_elements(),
-      "the {} of the history has {} stresses and {} strains for {} elements (compat: sordo2024 "
-      "interpolates both) import the stress and the strain recorder",
-      what, f.stress.size(), f.strain.size(), mesh.num_elements());
+  validate(f.stress.size() == mesh.num_elements() && f.strain.size() == mesh.num_elements(),
+           "the {} of the history has {} stresses and {} strains for {} elements (the script "
+           "interpolates both) import the stress and the strain recorder",
+           what, f.stress.size(), f.strain.size(), mesh.num_elements());
 }
 
 std::size_t find_base_node(const QuadMesh& mesh, int tag) {
   const auto it = std::find(mesh.node_tags.begin(), mesh.node_tags.end(), tag);
   validate(it != mesh.node_tags.end(),
-           "sordo2024.base_node: the mesh has no node {} (its displacement is subtracted from all "
+           "base_node: the mesh has no node {} (its displacement is subtracted from all "
            "points) give the tag of the bottom left node of the dam",
            tag);
   const auto node = static_cast<std::size_t>(it - mesh.node_tags.begin());
   double bottom = std::numeric_limits<double>::infinity();
   for (const Vec2& x : mesh.nodes) bottom = std::min(bottom, x[1]);
-  validate(
-      mesh.nodes[node][1] == bottom,
-      "sordo2024.base_node: node {} at ({:.6g}, {:.6g}) m is not on the base y = {:.6g} m (its "
-      "displacement is subtracted as that of the base) give the bottom left node of the dam",
-      tag, mesh.nodes[node][0], mesh.nodes[node][1], bottom);
+  validate(mesh.nodes[node][1] == bottom,
+           "base_node: node {} at ({:.6g}, {:.6g}) m is not on the base y = {:.6g} m (its "
+           "displacement is subtracted as that of the base) give the bottom left node of the dam",
+           tag, mesh.nodes[node][0], mesh.nodes[node][1], bottom);
   return node;
 }
 
@@ -107,7 +105,7 @@ double element_density(const QuadMesh& mesh, const SordoConfig& c, std::size_t e
   const int tag = mesh.element_material[e];
   const std::vector<double>* row = find_row(c.densities, tag);
   validate(row != nullptr,
-           "sordo2024.densities has no row for material {} of element {} (its points would have no "
+           "densities has no row for material {} of element {} (its points would have no "
            "mass) add [{}, <density> kg/m3]",
            tag, mesh.element_tags[e], tag);
   return (*row)[1];
@@ -242,7 +240,7 @@ ParticleSet map_sordo2024(const QuadMesh& mesh, const FemFrame& gravity, const F
           sordo_runout_tag(config, {x, r_u, element.sigma_v, element.material});
       validate(tag.has_value(),
                "element {} has an initial vertical effective stress of exactly {:.6g} Pa (the "
-               "script gives its points no material there) shift the last row of sordo2024.layers",
+               "script gives its points no material there) shift the last row of layers",
                mesh.element_tags[e], -element.sigma_v);
       std::array<double, 3> displacement = interpolate(mesh, e, n, state.displacement);
       displacement[0] -= state.base_shift;
@@ -260,11 +258,10 @@ ParticleSet map_sordo2024(const QuadMesh& mesh, const FemFrame& gravity, const F
       append_history(set, config, element, *tag, f[3], f[4], f[5]);
     }
   }
-  validate(
-      set.size() > 0,
-      "no point of the {} elements lies inside sordo2024.keep_x and keep_y (nothing is left to "
-      "run out) check their units and signs",
-      mesh.num_elements());
+  validate(set.size() > 0,
+           "no point of the {} elements lies inside keep_x and keep_y (nothing is left to "
+           "run out) check their units and signs",
+           mesh.num_elements());
   index_materials(set, config);
   set.notes = sordo2024_defects();
   return set;
@@ -273,11 +270,10 @@ ParticleSet map_sordo2024(const QuadMesh& mesh, const FemFrame& gravity, const F
 ParticleSet map_sordo2024(const FemHistory& history, const SordoConfig& config) {
   if (config.frame < 0) return map_sordo2024(history.mesh(), history.gravity(), nullptr, config);
   const std::size_t count = history.times().size();
-  validate(
-      static_cast<std::size_t>(config.frame) < count,
-      "sordo2024.frame is {} but the history has {} frames (rows count from 0) give one of 0 to "
-      "{}, or -1 for gravity",
-      config.frame, count, static_cast<long>(count) - 1);
+  validate(static_cast<std::size_t>(config.frame) < count,
+           "frame is {} but the history has {} frames (rows count from 0) give one of 0 to "
+           "{}, or -1 for gravity",
+           config.frame, count, static_cast<long>(count) - 1);
   const FemFrame frame = history.frame(static_cast<std::size_t>(config.frame));
   return map_sordo2024(history.mesh(), history.gravity(), &frame, config);
 }

@@ -16,14 +16,18 @@ namespace flowslide {
 enum class SordoLiquefied { all, line };
 inline constexpr std::array<std::string_view, 2> kSordoLiquefiedNames{"all", "line"};
 
+/// Materials of the section that the script knows, by name.
+struct SordoSoils {
+  std::string tailings = "tailings";
+  std::string embankment = "embankment";
+  std::string foundation = "foundation";
+};
+
 /// What the script holds as constants. Defaults are those of the Mochikoshi dam where the script
 /// has them; element tags, base node and line belong to one mesh and one run.
 struct SordoConfig {
-  int frame = -1;       ///< index into FemHistory::times(), -1 for the gravity state
+  SordoSoils soils;
   int base_node = 175;  ///< node tag whose x displacement is taken as the movement of the base
-  int tailings = 168;   ///< element material tags
-  int embankment = 167;
-  int foundation = 170;
   int saturated_embankment = 166;              ///< tag given to embankment under the water table
   std::array<double, 2> keep_x{-340.0, 87.5};  ///< points outside are dropped [m]
   std::array<double, 2> keep_y{-5.0, 100.0};
@@ -34,14 +38,24 @@ struct SordoConfig {
   std::vector<std::vector<double>> line;  ///< two points [m] for SordoLiquefied::line
   double youngs_modulus = 20e6;  ///< [Pa]; the script leaves elasticity to the runout program
   double poisson_ratio = 0.3;
-  std::vector<std::vector<double>> densities;  ///< rows: element material tag, density [kg/m3]
   /// Rows: smallest sigma'_v0 of the layer [Pa], tag; from the surface down.
   std::vector<std::vector<double>> layers;
   /// Rows: tag, phi peak, residual [rad], c peak, residual [Pa], strain at peak, at residual [-].
   std::vector<std::vector<double>> strengths;
 
+  // What the history knows, see for_history(); no settings.
+  int frame = -1;      ///< index into FemHistory::times(), -1 for the gravity state
+  int tailings = 168;  ///< element material tags
+  int embankment = 167;
+  int foundation = 170;
+  std::vector<std::vector<double>> densities;  ///< rows: element material tag, density [kg/m3]
+
   SordoConfig();
 };
+
+/// With tags and densities of the materials of that name, and the frame. Throws InputError for a
+/// name that the history does not have.
+SordoConfig for_history(SordoConfig config, const FemHistory& history, int frame);
 
 template <>
 struct Schema<SordoConfig> {

@@ -60,7 +60,7 @@ MaterialSpec sordo_material(const SordoConfig& c, int tag) {
   }
   const std::vector<double>* row = find_row(c.strengths, tag);
   validate(row != nullptr,
-           "sordo2024.strengths has no row for material {} (points of it take part in the runout) "
+           "strengths has no row for material {} (points of it take part in the runout) "
            "add one",
            tag);
   MohrCoulomb::Params p;
@@ -76,7 +76,7 @@ MaterialSpec sordo_material(const SordoConfig& c, int tag) {
   const bool layer = std::any_of(c.layers.begin(), c.layers.end(),
                                  [tag](const std::vector<double>& l) { return l[1] == tag; });
   const std::string_view what = layer ? "liquefied" : tag == c.tailings ? "tailings" : "embankment";
-  return {fmt::format("{} {}", what, tag), law.law, law.parameters, true};
+  return {fmt::format("{} {}", what, tag), law.law, law.parameters, true, layer};
 }
 
 }  // namespace flowslide

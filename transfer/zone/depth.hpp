@@ -3,6 +3,7 @@
 #include "model/mesh.hpp"
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <span>
 #include <string>
@@ -24,10 +25,11 @@ enum class DepthCoordinates { original, current };
 inline constexpr std::array<std::string_view, 2> kDepthCoordinates{"original", "current"};
 
 /// Pond surface minus the lowest y of the nodes in the window whose r_u exceeds the threshold [m];
-/// 0 if there is none. A NaN in r_u leaves its node out.
+/// 0 if there is none. A NaN in r_u leaves its node out, as does a zero in `counted`, unless that
+/// is empty.
 double depth_of_liquefaction(const DepthWindow& window, double pond_surface,
                              std::span<const Vec2> positions, std::span<const double> r_u,
-                             double threshold);
+                             double threshold, std::span<const std::uint8_t> counted = {});
 
 template <>
 struct Schema<DepthWindow> {

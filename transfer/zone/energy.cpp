@@ -8,18 +8,13 @@
 namespace flowslide {
 
 std::vector<double> element_masses(const QuadMesh& mesh, std::span<const std::int32_t> elements,
-                                   const std::map<std::int32_t, double>& density) {
+                                   std::span<const double> density) {
+  FLOWSLIDE_EXPECT(density.size() == mesh.num_elements());
   std::vector<double> mass;
   mass.reserve(elements.size());
   for (const std::int32_t e : elements) {
     const auto index = static_cast<std::size_t>(e);
-    const auto found = density.find(mesh.element_material[index]);
-    validate(
-        found != density.end(),
-        "material {} of element {} has no density (the kinetic energy needs element masses) add "
-        "a row such as [{}, 1870 kg/m3] to densities",
-        mesh.element_material[index], mesh.element_tags[index], mesh.element_material[index]);
-    mass.push_back(found->second * area(corners(mesh, mesh.nodes, index)));
+    mass.push_back(density[index] * area(corners(mesh, mesh.nodes, index)));
   }
   return mass;
 }

@@ -2,17 +2,16 @@
 #include "model/mesh.hpp"
 
 #include <cstdint>
-#include <map>
 #include <span>
 #include <vector>
 
 /// Kinetic energy of a section per metre of width (docs/theory/liquefaction-zone.md, section 3).
 namespace flowslide {
 
-/// Mass of each listed element [kg/m]: density of its material times initial area. Throws
-/// InputError for a material without a density. `density` maps material tags to kg/m3.
+/// Mass of each listed element [kg/m]: its density times its initial area. `density` of all
+/// elements [kg/m3].
 std::vector<double> element_masses(const QuadMesh& mesh, std::span<const std::int32_t> elements,
-                                   const std::map<std::int32_t, double>& density);
+                                   std::span<const double> density);
 
 /// Nodes of the listed elements that lie at their lowest y.
 std::vector<std::int32_t> lowest_nodes(const QuadMesh& mesh,

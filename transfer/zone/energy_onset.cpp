@@ -32,10 +32,13 @@ EnergyLevels energy_levels(const AutomaticTransfer& rule, const ZoneHistory& h,
   const std::size_t n = h.time.size();
   FLOWSLIDE_EXPECT(base_energy.size() == n);
   EnergyLevels r;
-  r.energy = trailing_mean(
-      h.time, rule.energy == EnergyFrame::relative ? h.kinetic_energy_relative : h.kinetic_energy,
-      rule.smoothing);
-  std::vector<double> base = trailing_mean(h.time, base_energy, rule.smoothing);
+  const bool sliding = rule.energy == EnergyFrame::sliding;  // holds means already
+  const std::vector<double>& energy = sliding ? h.sliding_energy
+                                      : rule.energy == EnergyFrame::relative
+                                          ? h.kinetic_energy_relative
+                                          : h.kinetic_energy;
+  r.energy = trailing_mean(h.time, energy, sliding ? 0.0 : rule.smoothing);
+  std::vector<double> base = trailing_mean(h.time, base_energy, sliding ? 0.0 : rule.smoothing);
   for (std::size_t i = 1; i < n; ++i) base[i] = std::max(base[i], base[i - 1]);
 
   r.liquefied = n;
@@ -48,7 +51,9 @@ EnergyLevels energy_levels(const AutomaticTransfer& rule, const ZoneHistory& h,
   // Ratios of two energies that are both near zero say nothing.
   const double significant = r.liquefied > 0 ? 0.1 * base[r.liquefied - 1] : 0.0;
   double largest = 0.0;
-  double ratio = 0.0;
+  // stiff ground follows slow motion of its base so well that its own ratio says little
+  constexpr double kLeast = 0.1;
+  double ratio = sliding ? kLeast : 0.0;
   for (std::size_t i = 0; i < r.liquefied; ++i) {
     largest = std::max(largest, r.energy[i]);
     if (base[i] > 0.0 && base[i] >= significant) ratio = std::max(ratio, r.energy[i] / base[i]);

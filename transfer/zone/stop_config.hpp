@@ -18,7 +18,8 @@ template <>
 struct Schema<StopAtTransferConfig> {
   static constexpr std::string_view doc =
       "The run ends at the first recorded state from which on no later one can change the time of "
-      "transfer. Settings as in transfer.zone, where they must be the same.";
+      "transfer. The settings of transfer.zone, best by a reference, stop_at_transfer: "
+      "\"${stages.zone.with}\"; what they say of the zone itself has no part in this.";
   static void describe(FieldVisitor& v, StopAtTransferConfig& c);
 };
 

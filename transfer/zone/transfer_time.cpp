@@ -160,9 +160,11 @@ bool is_settled(const TransferTimeConfig& config, const ZoneHistory& h,
 
 void Schema<AutomaticTransfer>::describe(FieldVisitor& v, AutomaticTransfer& c) {
   v.choice("energy", c.energy, kEnergyFrames,
-           "kinetic energy of the velocity relative to the base, or of the absolute velocity");
+           "sliding: kinetic energy of the velocity relative to the base, averaged over "
+           "`smoothing`; relative and absolute: trailing mean of the energy of the velocity of the "
+           "moment, against the base or not");
   v.quantity("smoothing", c.smoothing, Dim::time, {.min = 0.0},
-             "length of the trailing mean of the kinetic energy");
+             "length of the trailing mean of the velocity or the kinetic energy");
   v.quantity("growth", c.growth, Dim::none, {.min = 1.0},
              "onset of failure: the energy exceeds this multiple of its pre-failure envelope");
   v.quantity("sustain", c.sustain, Dim::time, {.min = 0.0},

@@ -17,16 +17,16 @@ enum class TransferWhen { automatic, gravity, end, at };
 inline constexpr std::array<std::string_view, 4> kTransferWhens{"automatic", "gravity", "end",
                                                                 "at"};
 
-enum class EnergyFrame { relative, absolute };
-inline constexpr std::array<std::string_view, 2> kEnergyFrames{"relative", "absolute"};
+enum class EnergyFrame { sliding, relative, absolute };
+inline constexpr std::array<std::string_view, 3> kEnergyFrames{"sliding", "relative", "absolute"};
 
 enum class JacobianPoint { gauss, centre };
 inline constexpr std::array<std::string_view, 2> kJacobianPoints{"gauss", "centre"};
 
 /// Parameters of `when: automatic`, also of the recorded Q.
 struct AutomaticTransfer {
-  EnergyFrame energy = EnergyFrame::relative;
-  double smoothing = 1.0;    ///< length of the trailing mean of the kinetic energy [s]
+  EnergyFrame energy = EnergyFrame::sliding;
+  double smoothing = 1.0;    ///< length of the trailing mean of velocity or energy [s]
   double growth = 2.0;       ///< onset: energy above this multiple of the envelope [-]
   double sustain = 1.0;      ///< onset: for this long beyond the smoothing, larger at its end [s]
   double development = 0.9;  ///< full development: share of the largest depth [-]
@@ -51,7 +51,8 @@ struct TransferChoice {
   std::string reason;  ///< one sentence
 };
 
-/// Applies the rule to the recorded scalars. `base_energy` is KineticEnergy::base of each frame.
+/// Applies the rule to the recorded scalars. `base_energy` is that of the base in each frame:
+/// SlidingEnergy::Values::base with `energy: sliding`, else KineticEnergy::base.
 /// Throws InputError if the history has no frames or the time is outside the record.
 TransferChoice choose_transfer(const TransferTimeConfig& config, const ZoneHistory& history,
                                std::span<const double> base_energy);

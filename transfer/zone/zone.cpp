@@ -40,6 +40,8 @@ void flag_elements(LiquefactionZone& zone, const QuadMesh& mesh, const ZoneParts
     const auto e = static_cast<std::size_t>(element);
     const Vec2 centre = centroid(corners(mesh, mesh.nodes, e));
     if (config.zone != ZoneExtent::all && !contains(shape, centre)) continue;
+    if (config.zone == ZoneExtent::liquefied && !(zone.r_u_element[e] > config.r_u.threshold))
+      continue;
     const LayerStrength s = strength_at(config.strength, zone.sigma_v0[e]);
     zone.liquefied[e] = 1;
     zone.strength[e] = s.strength;
@@ -74,13 +76,60 @@ double depth_of_shape(const QuadMesh& mesh, const ZoneParts& parts, const ZoneSh
   return depth;
 }
 
+/// The largest values of each row up to an instant.
+std::vector<double> largest(const std::vector<std::vector<double>>& table, std::size_t last) {
+  std::vector<double> result;
+  for (const std::vector<double>& row : table)
+    result.push_back(
+        *std::max_element(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(last + 1)));
+  return result;
+}
+
+/// Depths in the windows up to the transfer by every rule, or those of a zone given by the user.
+void add_depths(LiquefactionZone& zone, const ZoneRecorder& record, const ZoneParts& parts,
+                const ZoneShape& shape, const ZoneConfig& config) {
+  const ZoneHistory& h = zone.history;
+  zone.window_names = h.window_names;
+  zone.onset_time = kUnset;
+  if (config.zone != ZoneExtent::automatic || h.time.empty()) {
+    for (const auto& [name, window] : windows_or_all(config))
+      zone.window_depth_max.push_back(depth_of_shape(record.mesh(), parts, shape, window, config));
+    zone.window_depth_any = zone.window_depth_interpolated = zone.window_depth_strong =
+        zone.window_depth_before_slide = zone.window_depth_max;
+    return;
+  }
+  const auto transfer = static_cast<std::size_t>(zone.transfer_frame);
+  const std::size_t strong = std::min(record.strong_shaking_end(), transfer);
+  const std::size_t slide = std::min(record.onset().value_or(transfer), transfer);
+  if (record.onset() && slide < transfer) zone.onset_time = h.time[slide];
+  zone.strong_shaking_end = h.time[strong];
+  zone.window_depth_max = largest(h.depth, transfer);
+  zone.window_depth_any = largest(h.depth_any, transfer);
+  zone.window_depth_interpolated = largest(h.depth_interpolated, transfer);
+  zone.window_depth_strong = largest(h.depth, strong);
+  zone.window_depth_before_slide = largest(h.depth, slide);
+}
+
+/// Pore water carries no more than all of the weight above it, and little more in motion.
+void note_large_r_u(LiquefactionZone& zone, const ZoneRecorder& record) {
+  constexpr double kPossible = 1.2;
+  const ZoneRecorder::LargestRu& r = record.largest_r_u();
+  if (!(r.value > kPossible)) return;
+  const auto n = static_cast<std::size_t>(r.node);
+  zone.notes.push_back(fmt::format(
+      "r_u reaches {:.2g} at node {} ({:.4g}, {:.4g}) m at {:.4g} s: more than the soil above "
+      "weighs, noise of the pore pressure there or too small an initial stress",
+      r.value, record.mesh().node_tags[n], record.mesh().nodes[n][0], record.mesh().nodes[n][1],
+      r.time));
+}
+
 }  // namespace
 
 LiquefactionZone find_zone(const FemHistory& history, const ZoneConfig& config,
                            const Progress& progress) {
   check(config);
   const QuadMesh& mesh = history.mesh();
-  ZoneRecorder record(mesh, history.gravity(), config);
+  ZoneRecorder record(mesh, history.materials(), history.gravity(), config);
   const std::size_t frames = history.times().size();
   for (std::size_t i = 0; i < frames; ++i) {
     if (progress.should_stop()) throw Interrupted("stopped while the frames were read");
@@ -100,18 +149,11 @@ LiquefactionZone find_zone(const FemHistory& history, const ZoneConfig& config,
   zone.r_u_element = element_means(mesh, zone.r_u_node);
   zone.sigma_v0 = reference.sigma_v0;
   zone.notes = reference.notes;
+  note_large_r_u(zone, record);
   const ZoneShape shape = zone_shape(config, mesh, parts.soil, zone.r_u_node);
   flag_elements(zone, mesh, parts, shape, config);
 
-  const ZoneHistory& h = zone.history;
-  zone.window_names = h.window_names;
-  std::size_t w = 0;
-  for (const auto& [name, window] : windows_or_all(config)) {
-    zone.window_depth_max.push_back(config.zone == ZoneExtent::automatic
-                                        ? h.depth_max[w][static_cast<std::size_t>(choice.frame)]
-                                        : depth_of_shape(mesh, parts, shape, window, config));
-    ++w;
-  }
+  add_depths(zone, record, parts, shape, config);
   return zone;
 }
 

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <limits>
-#include <set>
 
 namespace flowslide {
 
@@ -25,38 +24,30 @@ struct Schema<RuConfig> {
 };
 
 template <>
-struct Schema<ZoneBox> {
-  static constexpr std::string_view doc =
-      "Part of the section that counts, without free-field columns; open where nothing is given.";
-  static void describe(FieldVisitor& v, ZoneBox& c) {
-    v.quantity("left", c.left, Dim::length, {}, "smallest x");
-    v.quantity("right", c.right, Dim::length, {}, "largest x");
-    v.quantity("bottom", c.bottom, Dim::length, {}, "smallest y");
-    v.quantity("top", c.top, Dim::length, {}, "largest y");
-  }
-};
-
-template <>
 struct Schema<ColumnConfig> {
-  static constexpr std::string_view doc = "Columns in which the automatic zone is found.";
+  static constexpr std::string_view doc =
+      "Columns in which depths and the automatic zone are found.";
   static void describe(FieldVisitor& v, ColumnConfig& c) {
     v.quantity("width", c.width, Dim::length, {.above = 0.0},
                "width; the median width of the liquefiable elements if left out");
     v.integer("neighbours", c.neighbours, {.min = 0, .max = 8},
               "a liquefied node counts if at least so many of its mesh neighbours have liquefied");
+    v.flag("interpolate", c.interpolate,
+           "the zone ends where r_u falls through the threshold between two nodes of a column; "
+           "false: at the lowest liquefied node");
   }
 };
 
 void Schema<TransferRuleConfig>::describe(FieldVisitor& v, TransferRuleConfig& c) {
-  static constexpr std::array<FieldVisitor::Column, 2> kDensity{
-      {{"material", Dim::none}, {"density", Dim::density}}};
-  v.integers("liquefiable", c.liquefiable, "material tags of the soil that can liquefy");
+  v.texts("liquefiable", c.liquefiable, "materials that can liquefy, by name");
   v.quantity("pond_surface", c.pond_surface, Dim::length, {},
              "y of the original pond surface, the datum of depths");
   v.choice("when", c.transfer.when, kTransferWhens, "what decides the transfer time");
   v.quantity("at", c.transfer.at, Dim::time, {}, "transfer time, with when: at");
-  v.rows("densities", c.densities, kDensity,
-         "density of each material tag, for the kinetic energy");
+  v.moved("densities",
+          "(the shaking brings the densities of its materials) remove it; they are those of "
+          "fem.run, or of import.opensees with 'materials: {tailings: {tag: 168, density: 1870 "
+          "kg/m3}}'");
   v.group("box", c.box, "part of the section that counts");
   v.table(
       "windows", c.windows,
@@ -65,6 +56,7 @@ void Schema<TransferRuleConfig>::describe(FieldVisitor& v, TransferRuleConfig& c
   v.choice("depth_coordinates", c.depth_coordinates, kDepthCoordinates,
            "depth of a node where it was, or where it is");
   v.group("r_u", c.r_u, "excess pore-pressure ratio");
+  v.group("columns", c.columns, "columns in which depths and the automatic zone are found");
   v.integers("base_nodes", c.base_nodes,
              "node tags whose mean velocity is that of the base; the lowest nodes if left out");
   v.group("automatic", c.transfer.automatic, "criteria of the automatic transfer time");
@@ -75,12 +67,12 @@ void Schema<ZoneConfig>::describe(FieldVisitor& v, ZoneConfig& c) {
       {{"x", Dim::length}, {"y", Dim::length}}};
   Schema<TransferRuleConfig>::describe(v, c);
   v.choice("zone", c.zone, kZoneExtents,
-           "found from r_u, all of the liquefiable soil, above a line, or inside a polygon");
+           "found from r_u, all of the liquefiable soil, above a line, inside a polygon, or of "
+           "what is found from r_u only the elements that have liquefied themselves");
   v.rows("line", c.line, kPoint,
          "lower boundary for zone: line, x rising; level to the left, its last segment goes on");
   v.rows("polygon", c.polygon, kPoint, "corners for zone: polygon, in order");
   v.group("strength", c.strength, "residual strength of the liquefied soil");
-  v.group("columns", c.columns, "columns in which the automatic zone is found");
 }
 
 namespace {
@@ -109,24 +101,14 @@ DepthWindows windows_or_all(const TransferRuleConfig& c) {
 
 void check(const TransferRuleConfig& c) {
   validate(!c.liquefiable.empty(),
-           "liquefiable is empty (no material can liquefy) give the material tags, e.g. [168]");
+           "liquefiable is empty (no material can liquefy) give materials by name, e.g. "
+           "[tailings]");
   validate(std::isfinite(c.pond_surface),
            "pond_surface is not set (depths have no datum) give it, e.g. 30 m");
   for (const auto& [name, window] : c.windows) {
     validate(window.from < window.to,
              "windows.{}: from {} m is not less than to {} m (the window is empty) exchange them?",
              name, window.from, window.to);
-  }
-  std::set<double> tags;
-  for (const std::vector<double>& row : c.densities) {
-    validate(row.size() == 2 && row[0] == std::round(row[0]) && std::abs(row[0]) < 2147483647.0,
-             "densities: {} is not a material tag (tags are whole numbers) correct the row",
-             row.empty() ? kUnset : row[0]);
-    validate(row[1] > 0.0 && std::isfinite(row[1]),
-             "densities: material {} has density {} kg/m3 (mass must be positive) correct the row",
-             row[0], row[1]);
-    validate(tags.insert(row[0]).second,
-             "densities: material {} is given twice (which one holds?) remove one row", row[0]);
   }
   check(c.transfer);
 }
@@ -142,7 +124,7 @@ void check(const ZoneConfig& c) {
         i + 1, c.line[i][0]);
   }
   check_points("polygon", c.polygon, 3, c.zone == ZoneExtent::polygon);
-  validate(!(c.zone == ZoneExtent::automatic && c.transfer.when == TransferWhen::gravity),
+  validate(!(found_from_r_u(c.zone) && c.transfer.when == TransferWhen::gravity),
            "zone: automatic with when: gravity (r_u is zero in the gravity state, nothing would be "
            "liquefied) write zone: all, or choose a later time");
   check(c.strength);

@@ -1,6 +1,7 @@
 #pragma once
 #include "config/schema.hpp"
 #include "transfer/zone/depth.hpp"
+#include "transfer/zone/section_box.hpp"
 #include "transfer/zone/strength.hpp"
 #include "transfer/zone/transfer_time.hpp"
 
@@ -15,9 +16,13 @@
 /// docs/theory/liquefaction-zone.md.
 namespace flowslide {
 
-enum class ZoneExtent { automatic, all, line, polygon };
-inline constexpr std::array<std::string_view, 4> kZoneExtents{"automatic", "all", "line",
-                                                              "polygon"};
+enum class ZoneExtent { automatic, all, line, polygon, liquefied };
+inline constexpr std::array<std::string_view, 5> kZoneExtents{"automatic", "all", "line",
+                                                              "polygon", "liquefied"};
+/// Whether the extent is found from r_u, and not given.
+constexpr bool found_from_r_u(ZoneExtent z) {
+  return z == ZoneExtent::automatic || z == ZoneExtent::liquefied;
+}
 
 /// sigma'_v0 that divides the excess pore pressure of a node: mean of the adjacent elements, or
 /// each element's own value as in the published script, the node taking the mean of the ratios.
@@ -35,25 +40,21 @@ struct RuConfig {
   RuOverTime over_time = RuOverTime::maximum;
 };
 
-/// Part of the section that counts, in reference coordinates [m]; a side left out is open.
-struct ZoneBox {
-  std::optional<double> left, right, bottom, top;
-};
-
 struct ColumnConfig {
   std::optional<double> width;  ///< [m]; median width of the liquefiable elements if left out
   int neighbours = 1;           ///< liquefied mesh neighbours that a liquefied node needs to count
+  bool interpolate = true;      ///< bottom of the zone where r_u passes the threshold, or at nodes
 };
 
 /// What decides the transfer time.
 struct TransferRuleConfig {
-  std::vector<int> liquefiable;  ///< material tags
+  std::vector<std::string> liquefiable;  ///< materials by name
   double pond_surface = kUnset;  ///< y of the pond surface, datum of depths [m]
-  ZoneBox box;
+  SectionBox box;
   DepthWindows windows;  ///< see windows_or_all
   DepthCoordinates depth_coordinates = DepthCoordinates::original;
   RuConfig r_u;
-  std::vector<std::vector<double>> densities;  ///< rows [material tag, kg/m3]
+  ColumnConfig columns;
   std::vector<int> base_nodes;                 ///< node tags; the lowest nodes if empty
   TransferTimeConfig transfer;
 };
@@ -65,7 +66,6 @@ struct ZoneConfig : TransferRuleConfig {
   ZoneExtent zone = ZoneExtent::automatic;
   std::vector<std::vector<double>> line;     ///< points [x, y] for zone: line [m]
   std::vector<std::vector<double>> polygon;  ///< corners [x, y] for zone: polygon [m]
-  ColumnConfig columns;
   StrengthConfig strength;
 };
 

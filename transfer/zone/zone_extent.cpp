@@ -1,6 +1,7 @@
 #include "transfer/zone/zone_extent.hpp"
 
 #include "core/check.hpp"
+#include "transfer/zone/columns.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -57,50 +58,6 @@ std::vector<Vec2> points(const std::vector<std::vector<double>>& rows) {
   return result;
 }
 
-double median_width(const QuadMesh& mesh, std::span<const std::int32_t> elements) {
-  std::vector<double> widths;
-  for (const std::int32_t e : elements) {
-    const std::array<Vec2, 4> quad = corners(mesh, mesh.nodes, static_cast<std::size_t>(e));
-    const auto [low, high] = std::minmax({quad[0][0], quad[1][0], quad[2][0], quad[3][0]});
-    widths.push_back(high - low);
-  }
-  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
-  std::ranges::nth_element(widths, middle);
-  return *middle;
-}
-
-std::vector<std::int32_t> nodes_of(const QuadMesh& mesh, std::span<const std::int32_t> elements) {
-  std::vector<std::int32_t> nodes;
-  for (const std::int32_t e : elements) {
-    for (const std::int32_t n : mesh.elements[static_cast<std::size_t>(e)]) nodes.push_back(n);
-  }
-  std::ranges::sort(nodes);
-  nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
-  return nodes;
-}
-
-/// Nodes above the threshold that enough of their mesh neighbours confirm.
-std::vector<std::uint8_t> confirmed(const QuadMesh& mesh, std::span<const std::int32_t> elements,
-                                    std::span<const double> r_u, double threshold, int neighbours) {
-  std::vector<std::vector<std::int32_t>> adjacent(mesh.num_nodes());
-  for (const std::int32_t e : elements) {
-    for (const std::int32_t a : mesh.elements[static_cast<std::size_t>(e)]) {
-      for (const std::int32_t b : mesh.elements[static_cast<std::size_t>(e)]) {
-        if (a != b && r_u[static_cast<std::size_t>(b)] > threshold) {
-          adjacent[static_cast<std::size_t>(a)].push_back(b);
-        }
-      }
-    }
-  }
-  std::vector<std::uint8_t> result(mesh.num_nodes());
-  for (std::size_t n = 0; n < mesh.num_nodes(); ++n) {
-    std::ranges::sort(adjacent[n]);
-    const auto end = std::ranges::unique(adjacent[n]).begin();
-    result[n] = r_u[n] > threshold && end - adjacent[n].begin() >= neighbours;
-  }
-  return result;
-}
-
 }  // namespace
 
 double height_on(std::span<const Vec2> line, double x) {
@@ -120,36 +77,21 @@ bool contains(const ZoneShape& shape, Vec2 point) {
 std::vector<Vec2> column_boundary(const QuadMesh& mesh, std::span<const std::int32_t> elements,
                                   std::span<const double> r_u, double threshold,
                                   const ColumnConfig& config) {
-  FLOWSLIDE_EXPECT(!elements.empty() && r_u.size() == mesh.num_nodes());
-  const double width = config.width.value_or(median_width(mesh, elements));
-  const std::vector<std::int32_t> nodes = nodes_of(mesh, elements);
-  const std::vector<std::uint8_t> liquefied =
-      confirmed(mesh, elements, r_u, threshold, config.neighbours);
-  double left = kInf;
-  double right = -kInf;
-  for (const std::int32_t n : nodes) {
-    left = std::min(left, mesh.nodes[static_cast<std::size_t>(n)][0]);
-    right = std::max(right, mesh.nodes[static_cast<std::size_t>(n)][0]);
-  }
-  validate((right - left) / width < 1e6,
-           "columns.width {} m cuts the liquefiable soil into {:.0f} columns (that many cannot be "
-           "meant) choose about the element size",
-           width, (right - left) / width);
-  // Columns are centred on the first node and multiples of the width, so that the nodes of a
-  // regular mesh do not lie on their edges.
-  const auto count = static_cast<std::size_t>(std::lround((right - left) / width)) + 1;
-  std::vector<double> lowest(count, kInf);
-  std::vector<double> top(count, -kInf);
-  for (const std::int32_t node : nodes) {
-    const auto n = static_cast<std::size_t>(node);
-    const auto k = static_cast<std::size_t>(std::lround((mesh.nodes[n][0] - left) / width));
-    top[k] = std::max(top[k], mesh.nodes[n][1]);
-    if (liquefied[n]) lowest[k] = std::min(lowest[k], mesh.nodes[n][1]);
-  }
+  FLOWSLIDE_EXPECT(r_u.size() == mesh.num_nodes());
+  const std::vector<std::uint8_t> counted =
+      confirmed_nodes(soil_neighbours(mesh, elements), r_u, threshold, config.neighbours);
   std::vector<Vec2> line;
-  for (std::size_t k = 0; k < count; ++k) {
-    if (top[k] == -kInf) continue;  // no node: the line runs straight across
-    line.push_back({left + static_cast<double>(k) * width, std::min(lowest[k], top[k])});
+  for (const SoilColumn& column : soil_columns(mesh, elements, config.width)) {
+    const double top = mesh.nodes[static_cast<std::size_t>(column.nodes.back())][1];
+    const auto lowest = std::ranges::find_if(column.nodes, [&counted](std::int32_t n) {
+      return counted[static_cast<std::size_t>(n)] != 0;
+    });
+    double y = top;
+    if (config.interpolate)
+      y = liquefied_bottom(column, mesh.nodes, r_u, counted, threshold).value_or(top);
+    else if (lowest != column.nodes.end())
+      y = mesh.nodes[static_cast<std::size_t>(*lowest)][1];
+    line.push_back({column.x, y});
   }
   return line;
 }
@@ -159,6 +101,7 @@ ZoneShape zone_shape(const ZoneConfig& config, const QuadMesh& mesh,
   ZoneShape shape;
   switch (config.zone) {
     case ZoneExtent::automatic:
+    case ZoneExtent::liquefied:
       shape.lower_boundary =
           column_boundary(mesh, elements, r_u, config.r_u.threshold, config.columns);
       break;
@@ -166,7 +109,7 @@ ZoneShape zone_shape(const ZoneConfig& config, const QuadMesh& mesh,
       // Everything has liquefied: the boundary is the bottom of the soil.
       shape.lower_boundary =
           column_boundary(mesh, elements, std::vector<double>(mesh.num_nodes(), 1.0), 0.5,
-                          {config.columns.width, 0});
+                          {config.columns.width, 0, false});
       break;
     case ZoneExtent::line:
       shape.lower_boundary = points(config.line);

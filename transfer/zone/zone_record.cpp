@@ -11,7 +11,7 @@
 namespace flowslide {
 namespace {
 
-bool inside(const ZoneBox& box, Vec2 p, double tolerance) {
+bool inside(const SectionBox& box, Vec2 p, double tolerance) {
   return p[0] >= box.left.value_or(p[0]) - tolerance &&
          p[0] <= box.right.value_or(p[0]) + tolerance &&
          p[1] >= box.bottom.value_or(p[1]) - tolerance &&
@@ -30,14 +30,25 @@ std::vector<std::int32_t> tagged_nodes(const QuadMesh& mesh, const std::vector<i
   return nodes;
 }
 
-ZoneParts divide(const QuadMesh& mesh, const TransferRuleConfig& config) {
-  for (const int tag : config.liquefiable) {
+std::vector<std::int32_t> liquefiable_tags(const QuadMesh& mesh,
+                                           const std::vector<HistoryMaterial>& materials,
+                                           const TransferRuleConfig& config) {
+  std::vector<std::int32_t> tags;
+  for (const std::string& name : config.liquefiable) {
+    const std::int32_t tag = find_material(materials, name, "liquefiable").tag;
     validate(
         std::ranges::find(mesh.element_material, tag) != mesh.element_material.end(),
-        "liquefiable: no element has material {} (nothing of it can liquefy) check the tags of "
-        "the mesh",
-        tag);
+        "liquefiable: no element is of the material '{}' (nothing of it can liquefy) check the "
+        "mesh",
+        name);
+    tags.push_back(tag);
   }
+  return tags;
+}
+
+ZoneParts divide(const QuadMesh& mesh, const std::vector<HistoryMaterial>& materials,
+                 const TransferRuleConfig& config) {
+  const std::vector<std::int32_t> liquefiable = liquefiable_tags(mesh, materials, config);
   ZoneParts parts;
   parts.in_soil.resize(mesh.num_elements());
   for (std::size_t e = 0; e < mesh.num_elements(); ++e) {
@@ -47,10 +58,7 @@ ZoneParts divide(const QuadMesh& mesh, const TransferRuleConfig& config) {
     const auto counts = [&config, tolerance](Vec2 p) { return inside(config.box, p, tolerance); };
     if (!std::ranges::all_of(quad, counts)) continue;
     parts.section.push_back(static_cast<std::int32_t>(e));
-    if (std::ranges::find(config.liquefiable, mesh.element_material[e]) ==
-        config.liquefiable.end()) {
-      continue;
-    }
+    if (std::ranges::find(liquefiable, mesh.element_material[e]) == liquefiable.end()) continue;
     parts.soil.push_back(static_cast<std::int32_t>(e));
     parts.in_soil[e] = 1;
   }
@@ -76,31 +84,30 @@ void check_windows(const QuadMesh& mesh, const ZoneParts& parts, const DepthWind
   }
 }
 
-std::map<std::int32_t, double> density_of_material(const TransferRuleConfig& config) {
-  std::map<std::int32_t, double> density;
-  for (const std::vector<double>& row : config.densities) {
-    density[static_cast<std::int32_t>(row[0])] = row[1];
-  }
-  return density;
-}
-
 }  // namespace
 
-ZoneParts zone_parts(const QuadMesh& mesh, const TransferRuleConfig& config, bool shaken) {
-  ZoneParts parts = divide(mesh, config);
+ZoneParts zone_parts(const QuadMesh& mesh, const std::vector<HistoryMaterial>& materials,
+                     const TransferRuleConfig& config) {
+  ZoneParts parts = divide(mesh, materials, config);
   check_windows(mesh, parts, config.windows);
-  if (shaken) (void)element_masses(mesh, parts.section, density_of_material(config));
   return parts;
 }
 
-ZoneRecorder::ZoneRecorder(const QuadMesh& mesh, const FemFrame& gravity,
-                           const TransferRuleConfig& config)
-    : mesh_(mesh), config_(config), parts_(zone_parts(mesh, config)) {
+ZoneRecorder::ZoneRecorder(const QuadMesh& mesh, const std::vector<HistoryMaterial>& materials,
+                           const FemFrame& gravity, const TransferRuleConfig& config)
+    : mesh_(mesh),
+      config_(config),
+      parts_(zone_parts(mesh, materials, config)),
+      mass_(element_masses(mesh, parts_.section, element_densities(mesh, materials))),
+      adjacent_(soil_neighbours(mesh, parts_.soil)),
+      columns_(soil_columns(mesh, parts_.soil, config.columns.width)),
+      sliding_(config.transfer.automatic.smoothing) {
   config_.windows = windows_or_all(config);
   reference_ = r_u_reference(mesh_, gravity, parts_.in_soil, config_.r_u);
   for (const auto& [name, window] : config_.windows) history_.window_names.push_back(name);
-  history_.depth.resize(history_.window_names.size());
-  history_.depth_max.resize(history_.window_names.size());
+  for (auto* table :
+       {&history_.depth, &history_.depth_max, &history_.depth_any, &history_.depth_interpolated})
+    table->resize(history_.window_names.size());
 }
 
 void ZoneRecorder::check_finite(const FemFrame& frame) const {
@@ -121,26 +128,43 @@ void ZoneRecorder::check_finite(const FemFrame& frame) const {
   }
 }
 
+void ZoneRecorder::append_depths(std::span<const Vec2> positions, std::span<const double> r_u) {
+  const double threshold = config_.r_u.threshold;
+  const std::vector<std::uint8_t> counted =
+      confirmed_nodes(adjacent_, r_u, threshold, config_.columns.neighbours);
+  std::size_t w = 0;
+  for (const auto& [name, window] : config_.windows) {
+    const double depth =
+        depth_of_liquefaction(window, config_.pond_surface, positions, r_u, threshold, counted);
+    history_.depth_max[w].push_back(
+        history_.depth[w].empty() ? depth : std::max(depth, history_.depth_max[w].back()));
+    history_.depth[w].push_back(depth);
+    history_.depth_any[w].push_back(
+        depth_of_liquefaction(window, config_.pond_surface, positions, r_u, threshold));
+    std::vector<std::uint8_t> inside = counted;
+    for (std::size_t n = 0; n < inside.size(); ++n)
+      if (!window.contains(positions[n][0])) inside[n] = 0;
+    double between = 0.0;
+    for (const SoilColumn& column : columns_)
+      if (const auto y = liquefied_bottom(column, positions, r_u, inside, threshold))
+        between = std::max(between, config_.pond_surface - *y);
+    history_.depth_interpolated[w].push_back(between);
+    ++w;
+  }
+}
+
 void ZoneRecorder::append(const FemFrame& frame) {
-  if (mass_.empty()) mass_ = element_masses(mesh_, parts_.section, density_of_material(config_));
   check_finite(frame);
   std::vector<Vec2> positions = mesh_.nodes;
   for (std::size_t n = 0; n < positions.size(); ++n) {
     for (std::size_t k = 0; k < 2; ++k) positions[n][k] += frame.displacement[n][k];
   }
   const std::vector<double> r_u = r_u_at_nodes(mesh_, reference_, frame.pore_pressure, frame.time);
-  const std::vector<Vec2>& where =
-      config_.depth_coordinates == DepthCoordinates::original ? mesh_.nodes : positions;
+  for (std::size_t n = 0; n < r_u.size(); ++n)
+    if (r_u[n] > largest_.value) largest_ = {r_u[n], frame.time, static_cast<std::int32_t>(n)};
   history_.time.push_back(frame.time);
-  std::size_t w = 0;
-  for (const auto& [name, window] : config_.windows) {
-    const double depth =
-        depth_of_liquefaction(window, config_.pond_surface, where, r_u, config_.r_u.threshold);
-    history_.depth_max[w].push_back(
-        history_.depth[w].empty() ? depth : std::max(depth, history_.depth_max[w].back()));
-    history_.depth[w].push_back(depth);
-    ++w;
-  }
+  append_depths(config_.depth_coordinates == DepthCoordinates::original ? mesh_.nodes : positions,
+                r_u);
   const KineticEnergy energy =
       kinetic_energy(mesh_, parts_.section, mass_, frame.velocity, parts_.base_nodes);
   history_.kinetic_energy.push_back(energy.absolute);
@@ -149,7 +173,27 @@ void ZoneRecorder::append(const FemFrame& frame) {
                                   config_.transfer.automatic.strain_threshold);
   history_.distortion_gauss.push_back(q.gauss);
   history_.distortion_centre.push_back(q.centre);
-  base_energy_.push_back(energy.base);
+  const SlidingEnergy::Values sliding = sliding_.append(frame.time, mesh_, parts_.section, mass_,
+                                                        frame.displacement, parts_.base_nodes);
+  history_.sliding_energy.push_back(sliding.section);
+  base_kinetic_.push_back(energy.base);
+  base_energy_.push_back(config_.transfer.automatic.energy == EnergyFrame::sliding ? sliding.base
+                                                                                   : energy.base);
+}
+
+std::optional<std::size_t> ZoneRecorder::onset() const {
+  const auto found = find_onset(config_.transfer.automatic, history_, base_energy_);
+  return found ? std::optional(found->sample) : std::nullopt;
+}
+
+std::size_t ZoneRecorder::strong_shaking_end() const {
+  std::vector<double> sum(base_kinetic_.size());
+  for (std::size_t i = 1; i < sum.size(); ++i)
+    sum[i] = sum[i - 1] + 0.5 * (base_kinetic_[i] + base_kinetic_[i - 1]) *
+                              (history_.time[i] - history_.time[i - 1]);
+  std::size_t i = 0;
+  while (i + 1 < sum.size() && sum[i] < 0.95 * sum.back()) ++i;
+  return i;
 }
 
 TransferChoice ZoneRecorder::choose() const {

@@ -42,6 +42,7 @@ ParticleSet dam_points(const DamScene& scene) {
   enum { embankment, tailings };
   const std::array<double, 2> density{1690.0, 1870.0};
   ParticleSet p;
+  p.toe = 75.0;
   p.dim = scene.width > 0.0 ? 3 : 2;
   p.materials = {
       material("mohr_coulomb", {{"youngs_modulus", 20e6},
@@ -96,7 +97,6 @@ ParticleSet dam_points(const DamScene& scene) {
 FlowConfig dam_config(const DamScene& scene) {
   FlowConfig c;
   c.cell = scene.cell;
-  c.toe = 75.0;
   c.end = 300.0;
   c.transfer = Transfer::aflip;
   c.left_roller = -scene.upstream;

@@ -73,6 +73,7 @@ MaterialSpec draw_material(Draw& draw) {
 
 ParticleSet draw_soil(Draw& draw, double size) {
   ParticleSet p;
+  p.toe = 4.0 * size;
   p.materials = {draw_material(draw), draw_material(draw)};
   p.materials[1].name += "_below";
   fill(p, {0.0, 0.0, 4.0 * size, size}, 0.5 * size, draw.about(2000.0), 1);

@@ -21,9 +21,9 @@ MaterialSpec elastic(double youngs_modulus, double poisson_ratio) {
 FlowConfig free_space(double cell) {
   FlowConfig c;
   c.cell = cell;
-  c.toe = 0.0;
   c.end = 1.0;
   c.gravity = 0.0;
+  c.transfer = Transfer::apic;
   c.ground.surface = {{0.0, -1e6}};
   return c;
 }
@@ -31,7 +31,7 @@ FlowConfig free_space(double cell) {
 Trial::Trial(const ParticleSet& particles, const FlowConfig& config)
     : sim(make_simulation(particles, config)) {
   rebin();
-  reference = {sum_points(sim), config.toe};
+  reference = {sum_points(sim), is_set(particles.toe) ? particles.toe : 0.0};
 }
 
 void Trial::rebin() { prepare(sim, scratch, true); }
@@ -61,7 +61,7 @@ void Trial::run_to(double time) {
 }
 
 MpmSample Trial::balances() const {
-  std::vector<double> buffer;
+  std::vector<Place> buffer;
   return sample(sim, reference, std::vector<bool>(sim.materials.size(), true), buffer);
 }
 

@@ -23,7 +23,7 @@ Slide slide(const DamScene& scene, double end) {
   Simulation<Dim> s = make_simulation<Dim>(particles, config);
   StepScratch<Dim> scratch(1);
   prepare(s, scratch, true);
-  const Reference<Dim> start{sum_points(s), config.toe};
+  const Reference<Dim> start{sum_points(s), 0.0};
   const auto centre = [&] {
     double moment = 0.0, mass = 0.0;
     for (std::size_t q = 0; q < s.points.size(); ++q) {
@@ -34,7 +34,7 @@ Slide slide(const DamScene& scene, double end) {
   };
   const double before = centre();
   while (s.time < end) advance(s, scratch);
-  std::vector<double> buffer;
+  std::vector<Place> buffer;
   const MpmSample now = sample(s, start, std::vector<bool>(s.materials.size(), true), buffer);
   std::vector<double> x(s.points.x[0].begin(), s.points.x[0].end());
   const auto at = x.begin() + static_cast<std::ptrdiff_t>(x.size() - x.size() / 100);

@@ -1,3 +1,4 @@
+#include "workflows/engine/headlines.hpp"
 #include "workflows/engine/program_version.hpp"
 #include "workflows/engine/runner.hpp"
 #include "workflows/engine/sealed_json.hpp"
@@ -11,30 +12,25 @@
 namespace flowslide {
 namespace {
 
-/// Promised to every reader of result.json; null if no stage of the workflow finds them.
-constexpr std::array<std::string_view, 6> kPromised{"runout_m",
-                                                    "liquefaction_depth_pond_m",
-                                                    "liquefaction_depth_crest_m",
-                                                    "transfer_time_s",
-                                                    "mass_error",
-                                                    "energy_error"};
 /// Names at the top that no stage can claim.
-constexpr std::array<std::string_view, 8> kReserved{"schema", "program", "workflow", "wall_s",
-                                                    "wall",   "stages",  "sha256", "warnings"};
+constexpr std::array<std::string_view, 9> kReserved{
+    "schema", "program", "workflow", "wall_s", "wall", "stages", "sha256", "warnings", "headlines"};
 
 }  // namespace
 
 std::string result_json(const Workflow& workflow, const std::vector<StageOutcome>& outcomes,
                         double overhead) {
   Json result = {{"schema", 1}, {"program", program_version()}, {"workflow", workflow.name}};
-  for (std::string_view name : kPromised) result[std::string(name)] = nullptr;
 
   Json stages = Json::object(), warnings = Json::array();
   std::map<std::string, std::string> found_by;  // type of stage, by name of the fact
+  std::vector<std::string> all_facts;
   double stage_seconds = 0.0;
   for (const auto& [record, decision] : outcomes) {
     stage_seconds += record.seconds;
-    const Json facts = Json::parse(record.facts);
+    all_facts.push_back(record.facts);
+    Json facts = Json::parse(record.facts);
+    facts.erase("headlines");
     for (const std::string& text : decision.warnings)
       warnings.push_back(fmt::format("{}: {}", record.stage, text));
     stages[record.stage] = {{"uses", record.uses},
@@ -53,6 +49,8 @@ std::string result_json(const Workflow& workflow, const std::vector<StageOutcome
     }
   }
   result["warnings"] = warnings;
+  result["headlines"] = Json::parse(add_headlines("{}", merged_headlines(all_facts)))
+                            .value("headlines", Json::array());
   result["wall_s"] = stage_seconds + overhead;
   result["wall"] = {{"stages_s", stage_seconds},
                     {"overhead_s", overhead},

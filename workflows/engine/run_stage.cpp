@@ -3,6 +3,7 @@
 #include "core/check.hpp"
 #include "core/files.hpp"
 #include "workflows/engine/earlier.hpp"
+#include "workflows/engine/headlines.hpp"
 #include "workflows/engine/program_version.hpp"
 #include "workflows/engine/result_folder.hpp"
 #include "workflows/engine/session.hpp"
@@ -132,25 +133,26 @@ StageState run_stage(const WorkflowStage& stage, const Decision& decision,
     if (port != kWarningsInput && port != kEarlierInput)
       context.provenance.emplace_back("sha256 of " + port, hash);
   context.progress.stop_requested = options.stop_requested;
-  context.progress.report = [&](double fraction, std::string_view text) {
-    events.progress(stage.name, fraction, text);
+  context.progress.report = [&](Share share, std::string_view text) {
+    events.progress(stage.name, share, text);
     watch.write_if_due();
   };
   const StageResult result = call(stage, context, inputs, paths, watch);
 
-  StageRecord record{.stage = stage.name,
-                     .uses = stage.type.name,
-                     .version = stage.type.version,
-                     .key = decision.key,
-                     .settings = stage.prepared.settings,
-                     .inputs = inputs.hashes,
-                     .outputs = {},
-                     .files = {},
-                     .publish = result.publish,
-                     .give = result.give,
-                     .facts = add_warnings(result.facts, result.warnings),
-                     .program = program_version(),
-                     .seconds = watch.seconds()};
+  StageRecord record{
+      .stage = stage.name,
+      .uses = stage.type.name,
+      .version = stage.type.version,
+      .key = decision.key,
+      .settings = stage.prepared.settings,
+      .inputs = inputs.hashes,
+      .outputs = {},
+      .files = {},
+      .publish = result.publish,
+      .give = result.give,
+      .facts = add_headlines(add_warnings(result.facts, result.warnings), result.headlines),
+      .program = program_version(),
+      .seconds = watch.seconds()};
   for (const Port& port : stage.type.outputs) expect_output(stage, port, work);
   clean(work);
   sync_tree(work);

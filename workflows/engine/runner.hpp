@@ -26,8 +26,8 @@ struct RunEvents {
   /// A stage has been decided on, before it runs.
   std::function<void(std::string_view stage, const Decision&)> decided = [](std::string_view,
                                                                             const Decision&) {};
-  std::function<void(std::string_view stage, double fraction, std::string_view text)> progress =
-      [](std::string_view, double, std::string_view) {};
+  std::function<void(std::string_view stage, Share share, std::string_view text)> progress =
+      [](std::string_view, Share, std::string_view) {};
   std::function<void(std::string_view stage, double seconds)> done = [](std::string_view, double) {
   };
   /// Something of the run folder that was not as it should be, or that is no longer there.

@@ -44,6 +44,14 @@ struct RunContext {
   std::vector<EarlierStage> earlier = {};
 };
 
+/// A fact that a run prints when it ends, and what stands before and behind it.
+struct Headline {
+  std::string fact;  ///< its name
+  std::string text;  ///< "runout"
+  std::string unit = {};
+  std::string note = {};  ///< what explains the number; printed behind it
+};
+
 struct StageResult {
   std::string facts = "{}";  ///< JSON object; its entries go into result.json
   /// Files and folders in the stage's folder that appear at the top of the run folder, by name.
@@ -53,6 +61,8 @@ struct StageResult {
   /// What a user must know before using the result, one sentence each: shown on the terminal when
   /// the stage ends and whenever its result is used again, in result.json and in the report.
   std::vector<std::string> warnings = {};
+  /// Facts that are printed when the run ends, in this order, before those of earlier stages.
+  std::vector<Headline> headlines = {};
 };
 
 /// What is wrong and what is odd about settings and the files they name, before anything runs.

@@ -38,7 +38,7 @@ void check_cells(const FlowConfig& flow, const Soil& soil, Findings& found) {
 }
 
 void compare_cells(const FlowConfig& flow, const MapConfig& map, Findings& found) {
-  if (map.compat != Compat::none || map.seeding == Seeding::gauss) return;
+  if (map.seeding == Seeding::gauss) return;
   const double points = map.points_per_cell * flow.cell / map.cell;
   if (points < 1.0 - 1e-9) {
     found.errors.push_back(fmt::format(
@@ -70,7 +70,7 @@ void compare_cells(const FlowConfig& flow, const MapConfig& map, Findings& found
 
 void check_memory(const MapConfig& map, const Soil& soil, double width, double memory,
                   Findings& found) {
-  if (map.compat != Compat::none || map.seeding == Seeding::gauss) return;
+  if (map.seeding == Seeding::gauss) return;
   const double per_metre = map.points_per_cell / map.cell;
   const bool plane = std::isnan(width);
   const double points = soil.area * per_metre * per_metre * (plane ? 1.0 : width * per_metre);

@@ -40,27 +40,29 @@ double ground_height(const std::vector<std::vector<double>>& surface, double x) 
 
 }  // namespace
 
-Soil soil_of(const SectionMesh& section, const MapConfig& config) {
+Soil soil_of(const SectionMesh& section, const MapConfig& config,
+             const std::vector<HistoryMaterial>& materials) {
   Soil soil;
   const QuadMesh& mesh = section.mesh;
-  constexpr double big = std::numeric_limits<double>::max();
-  std::array<double, 4> box{-big, big, -big, big};
-  if (config.box.size() == 4) std::copy(config.box.begin(), config.box.end(), box.begin());
-  std::map<int, bool> counts;
+  const Box box = box_of(config.box);
+  std::map<std::int32_t, bool> counts;
   for (const auto& [name, material] : config.materials)
-    for (const int tag : material.tags) counts[tag] = material.counts_for_runout;
+    for (const std::string& source : sources_of(name, material))
+      counts[find_material(materials, source, "materials." + name).tag] =
+          material.counts_for_runout;
   for (std::size_t e = 0; e < mesh.num_elements(); ++e) {
     const auto found = counts.find(mesh.element_material[e]);
     if (found == counts.end()) continue;
     const std::array<Vec2, 4> quad = corners(mesh, mesh.nodes, e);
     const Vec2 centre = centroid(quad);
-    const bool inside =
-        centre[0] > box[0] && centre[0] < box[1] && centre[1] > box[2] && centre[1] < box[3];
+    const bool inside = centre[0] > box.xmin && centre[0] < box.xmax && centre[1] > box.ymin &&
+                        centre[1] < box.ymax;
     if (!inside) continue;
     soil.area += area(quad);
     soil.centres.push_back(centre);
     for (const Vec2& p : quad) {
-      const Vec2 clamped{std::clamp(p[0], box[0], box[1]), std::clamp(p[1], box[2], box[3])};
+      const Vec2 clamped{std::clamp(p[0], box.xmin, box.xmax),
+                         std::clamp(p[1], box.ymin, box.ymax)};
       add(soil.all, clamped);
       if (found->second) add(soil.counted, clamped);
     }
@@ -68,39 +70,39 @@ Soil soil_of(const SectionMesh& section, const MapConfig& config) {
   return soil;
 }
 
-void check_toe(const FlowConfig& flow, const Soil& soil, Findings& found) {
+void check_toe(double toe, const FlowConfig& flow, const Soil& soil, Findings& found) {
   const Extent& e = soil.counted;
   if (e.empty()) return;
   constexpr double kFarthest = 100.0;  // heights; the longest known flows go some tens
-  const double beyond = flow.toe - e.right;
+  const double beyond = toe - e.right;
   if (beyond > kFarthest * e.height())
     refuse(found,
            "toe: x = {:g} m lies {:g} m beyond the downstream end of the soil at x = {:g} m, more "
            "than {:g} times its height of {:g} m (nothing would pass it and the runout would be 0 "
            "whatever happens) give the x of the toe of the section",
-           flow.toe, beyond, e.right, kFarthest, e.height());
+           toe, beyond, e.right, kFarthest, e.height());
   else if (beyond > std::max(e.height(), 2.0 * flow.cell))
     warn(found,
          "toe: x = {:g} m lies {:g} m beyond the downstream end of the soil at x = {:g} m. The "
          "runout is counted from there: a flow of up to {:g} m will be reported as 0.",
-         flow.toe, beyond, e.right, beyond);
-  if (flow.toe <= e.left || -beyond > e.height())
+         toe, beyond, e.right, beyond);
+  if (toe <= e.left || -beyond > e.height())
     refuse(found,
            "toe: x = {:g} m lies {:g} m inside the soil, which ends at x = {:g} m and is {:g} m "
            "high (so much would count as runout before anything moves) give the x of the toe of "
            "the section",
-           flow.toe, -beyond, e.right, e.height());
+           toe, -beyond, e.right, e.height());
   else if (-beyond > flow.cell)
     warn(found,
          "toe: x = {:g} m lies {:g} m inside the soil, which ends at x = {:g} m: so much counts as "
          "runout before anything moves.",
-         flow.toe, -beyond, e.right);
+         toe, -beyond, e.right);
 }
 
 void check_edges(const FlowConfig& flow, const Soil& soil, Findings& found) {
   const Extent& e = soil.all;
   if (e.empty()) return;
-  const double slack = 0.5 * flow.cell;
+  const double slack = 0.5 * flow.cell, toe = soil.counted.right;
   if (flow.left_roller && *flow.left_roller > e.left + slack)
     refuse(found,
            "left_roller: x = {:g} m lies inside the soil, which begins at x = {:g} m (what is "
@@ -116,11 +118,11 @@ void check_edges(const FlowConfig& flow, const Soil& soil, Findings& found) {
            "right_roller: x = {:g} m lies inside the soil, which ends at x = {:g} m (what is "
            "behind the wall would be pushed about) put it beyond the soil",
            *flow.right_roller, e.right);
-  else if (flow.right_roller && *flow.right_roller <= flow.toe)
+  else if (flow.right_roller && *flow.right_roller <= toe)
     warn(found,
          "right_roller: x = {:g} m does not lie beyond the toe at x = {:g} m: nothing can pass the "
          "toe and the runout will be 0.",
-         *flow.right_roller, flow.toe);
+         *flow.right_roller, toe);
   const OutletSettings& o = flow.outlet;
   const auto leaves = [&](const char* side, const std::optional<double>& at, bool outside) {
     if (at && outside)
@@ -133,11 +135,11 @@ void check_edges(const FlowConfig& flow, const Soil& soil, Findings& found) {
   leaves("right", o.right, o.right && *o.right < e.right - slack);
   leaves("bottom", o.bottom, o.bottom && *o.bottom > e.bottom + slack);
   leaves("top", o.top, o.top && *o.top < e.top - slack);
-  if (o.right && *o.right >= e.right - slack && *o.right <= flow.toe)
+  if (o.right && *o.right >= e.right - slack && *o.right <= toe)
     refuse(found,
            "outlet.right: x = {:g} m does not lie beyond the toe at x = {:g} m (points count where "
            "they left, so the runout would be 0 whatever happens) put it downstream of the toe",
-           *o.right, flow.toe);
+           *o.right, toe);
 }
 
 void check_ground(const FlowConfig& flow, const Soil& soil, Findings& found) {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -65,37 +64,24 @@ double modulus_of(const AnyMaterial& law) {
 
 }  // namespace
 
-void check_map_materials(const MapConfig& map, const SectionMesh& section, const Soil& soil,
-                         Findings& found) {
-  const std::set<std::int32_t> tags(section.mesh.element_material.begin(),
-                                    section.mesh.element_material.end());
+void check_densities(const std::vector<HistoryMaterial>& materials, Findings& found) {
+  for (const HistoryMaterial& m : materials)
+    judge("materials." + m.name + ".density", m.density, 1.0, "kg/m3", kDensity, kUnitHint, found);
+}
+
+void check_map_materials(const MapConfig& map, const std::vector<HistoryMaterial>& materials,
+                         const Soil& soil, Findings& found) {
   const double height = soil.all.empty() ? 0.0 : soil.all.height();
   for (const auto& [name, m] : map.materials) {
     const std::string where = "materials." + name;
-    for (const int tag : m.tags)
-      if (tags.count(tag) == 0)
-        found.warnings.push_back(
-            fmt::format("{}.tags: no element of the mesh has the material tag {} (tags: {}).",
-                        where, tag, fmt::join(tags, ", ")));
-    judge(where + ".density", m.density, 1.0, "kg/m3", kDensity, kUnitHint, found);
+    double density = 0.0;
+    for (const std::string& source : sources_of(name, m))
+      density = std::max(density, find_material(materials, source, where).density);
     const double modulus = modulus_of(make_material(m.law, name));
-    if (is_set(modulus)) check_stiffness(where, modulus, m.density, height, found);
+    if (is_set(modulus)) check_stiffness(where, modulus, density, height, found);
     if (m.liquefied)
-      check_stiffness(where + ".liquefied", m.liquefied->youngs_modulus, m.density, height, found);
+      check_stiffness(where + ".liquefied", m.liquefied->youngs_modulus, density, height, found);
   }
-}
-
-void compare_densities(const MapConfig& map, const std::map<int, double>& other,
-                       std::string_view stage, Findings& found) {
-  for (const auto& [name, m] : map.materials)
-    for (const int tag : m.tags) {
-      const auto at = other.find(tag);
-      if (at == other.end() || std::abs(at->second / m.density - 1.0) <= 0.01) continue;
-      found.warnings.push_back(
-          fmt::format("materials.{}.density: {:g} kg/m3, but {} has {:g} kg/m3 for the material "
-                      "with the tag {}.",
-                      name, m.density, stage, at->second, tag));
-    }
 }
 
 void check_fem_soils(const FemConfig& fem, Findings& found) {

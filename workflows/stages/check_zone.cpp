@@ -3,6 +3,8 @@
 #include "workflows/stages/cross_checks.hpp"
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 namespace flowslide {
 
@@ -27,12 +29,14 @@ void check_strength(const StrengthConfig& strength, Findings& found) {
   }
 }
 
-void check_pond(const TransferRuleConfig& rule, const QuadMesh& mesh, Findings& found) {
+void check_pond(const TransferRuleConfig& rule, const QuadMesh& mesh,
+                const std::vector<HistoryMaterial>& materials, Findings& found) {
+  std::set<std::int32_t> liquefiable;
+  for (const std::string& name : rule.liquefiable)
+    liquefiable.insert(find_material(materials, name, "liquefiable").tag);
   double bottom = std::numeric_limits<double>::infinity(), top = -bottom;
   for (std::size_t e = 0; e < mesh.num_elements(); ++e) {
-    if (std::find(rule.liquefiable.begin(), rule.liquefiable.end(), mesh.element_material[e]) ==
-        rule.liquefiable.end())
-      continue;
+    if (liquefiable.count(mesh.element_material[e]) == 0) continue;
     for (const Vec2& p : corners(mesh, mesh.nodes, e)) {
       bottom = std::min(bottom, p[1]);
       top = std::max(top, p[1]);
@@ -67,29 +71,32 @@ void compare_transfer_rules(const StopAtTransferConfig& stop, const ZoneConfig& 
         changes));
 }
 
-void check_map_tags(const MapConfig& map, const SectionMesh& section,
-                    const std::optional<ZoneConfig>& zone, Findings& found) {
-  std::map<int, const MapMaterial*> of_tag;
+void check_map_names(const MapConfig& map, const SectionMesh& section,
+                     const std::vector<HistoryMaterial>& materials,
+                     const std::optional<ZoneConfig>& zone, Findings& found) {
+  std::map<std::string, const MapMaterial*> of_name;
   for (const auto& [name, m] : map.materials)
-    for (const int tag : m.tags) of_tag[tag] = &m;
+    for (const std::string& source : sources_of(name, m)) of_name[source] = &m;
+  std::map<std::int32_t, std::string> name_of;
+  for (const HistoryMaterial& m : materials) name_of[m.tag] = m.name;
   const QuadMesh& mesh = section.mesh;
+  const Box box = box_of(map.box);
   for (std::size_t e = 0; e < mesh.num_elements(); ++e) {
-    const Vec2 c = centroid(corners(mesh, mesh.nodes, e));
-    const auto& b = map.box;
-    if (b.size() == 4 && !(c[0] > b[0] && c[0] < b[1] && c[1] > b[2] && c[1] < b[3])) continue;
-    if (of_tag.count(mesh.element_material[e]) > 0) continue;
+    if (!box.contains(centroid(corners(mesh, mesh.nodes, e)))) continue;
+    const std::string& name = name_of[mesh.element_material[e]];
+    if (of_name.count(name) > 0) continue;
     found.errors.push_back(fmt::format(
-        "materials: element {} has the material tag {}, which no material lists (its mass and law "
-        "are unknown) add the tag to the tags of a material, or leave the element outside the box",
-        mesh.element_tags[e], mesh.element_material[e]));
+        "materials: element {} is of the material '{}', which is not among them (its law is "
+        "unknown) add it, or leave the element outside the box",
+        mesh.element_tags[e], name));
     break;
   }
   if (!zone) return;
-  for (const int tag : zone->liquefiable) {
-    const auto at = of_tag.find(tag);
-    if (at == of_tag.end() || at->second->liquefied) continue;
-    const std::string problem = fmt::format(
-        "materials: soil with the tag {} can liquefy (transfer.zone), but has no law for it", tag);
+  for (const std::string& name : zone->liquefiable) {
+    const auto at = of_name.find(name);
+    if (at == of_name.end() || at->second->liquefied) continue;
+    const std::string problem =
+        fmt::format("materials: '{}' can liquefy (transfer.zone), but has no law for it", name);
     if (zone->zone == ZoneExtent::all)
       found.errors.push_back(problem +
                              " (its strength would be that of intact soil) add liquefied: "

@@ -1,5 +1,6 @@
 #pragma once
 #include "fem/config.hpp"
+#include "model/history_material.hpp"
 #include "model/section_mesh.hpp"
 #include "mpm/run/flow_config.hpp"
 #include "transfer/map/map_config.hpp"
@@ -8,8 +9,8 @@
 #include "workflows/engine/stage.hpp"
 
 #include <limits>
-#include <map>
 #include <optional>
+#include <vector>
 
 /// Settings against each other and against the section, before anything runs. What cannot be is an
 /// error, what is odd a warning; limits and reasons in docs/guide/checks.md.
@@ -32,10 +33,12 @@ struct Soil {
   std::vector<Vec2> centres;  ///< of its elements, inside the box
 };
 
-Soil soil_of(const SectionMesh& section, const MapConfig& config);
+/// Throws InputError for a name that the section does not have.
+Soil soil_of(const SectionMesh& section, const MapConfig& config,
+             const std::vector<HistoryMaterial>& materials);
 
-/// Toe, rollers, outlet and ground of a runout against the soil.
-void check_toe(const FlowConfig& flow, const Soil& soil, Findings& found);
+/// Rollers, outlet and ground of a runout against the soil, and a toe that a report gives.
+void check_toe(double toe, const FlowConfig& flow, const Soil& soil, Findings& found);
 void check_edges(const FlowConfig& flow, const Soil& soil, Findings& found);
 void check_ground(const FlowConfig& flow, const Soil& soil, Findings& found);
 /// Opens the terrain file.
@@ -49,15 +52,14 @@ void check_memory(const MapConfig& map, const Soil& soil, double width, double m
                   Findings& found);
 double physical_memory();
 
-/// Density, stiffness and tags of the materials of a transfer.
-void check_map_materials(const MapConfig& map, const SectionMesh& section, const Soil& soil,
-                         Findings& found);
+void check_densities(const std::vector<HistoryMaterial>& materials, Findings& found);
+/// Stiffness of the materials of a transfer.
+void check_map_materials(const MapConfig& map, const std::vector<HistoryMaterial>& materials,
+                         const Soil& soil, Findings& found);
 /// Elements inside the box without a material, and soil that can liquefy without a law for it.
-void check_map_tags(const MapConfig& map, const SectionMesh& section,
-                    const std::optional<ZoneConfig>& zone, Findings& found);
-/// Densities by tag [kg/m3] of another stage against those of a transfer.
-void compare_densities(const MapConfig& map, const std::map<int, double>& other,
-                       std::string_view stage, Findings& found);
+void check_map_names(const MapConfig& map, const SectionMesh& section,
+                     const std::vector<HistoryMaterial>& materials,
+                     const std::optional<ZoneConfig>& zone, Findings& found);
 
 /// Soils and water of the finite elements.
 void check_fem_soils(const FemConfig& fem, Findings& found);
@@ -66,7 +68,8 @@ void check_water(const FemConfig& fem, const QuadMesh& mesh, Findings& found);
 /// Residual strength against the stress it belongs to.
 void check_strength(const StrengthConfig& strength, Findings& found);
 /// The pond surface against the soil that can liquefy.
-void check_pond(const TransferRuleConfig& rule, const QuadMesh& mesh, Findings& found);
+void check_pond(const TransferRuleConfig& rule, const QuadMesh& mesh,
+                const std::vector<HistoryMaterial>& materials, Findings& found);
 /// Settings of fem.run's stop_at_transfer that transfer.zone has otherwise.
 void compare_transfer_rules(const StopAtTransferConfig& stop, const ZoneConfig& zone,
                             Findings& found);

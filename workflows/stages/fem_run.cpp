@@ -18,16 +18,19 @@ namespace flowslide {
 namespace {
 
 /// Follows the scalars of transfer.zone from state to state.
-StopRule stop_rule(const QuadMesh& mesh, const std::optional<StopAtTransferConfig>& config) {
+StopRule stop_rule(const SectionMesh& section, const FemRunConfig& run) {
+  const std::optional<StopAtTransferConfig>& config = run.stop_at_transfer;
   if (!config) return {};
   struct Watch {
     std::optional<ZoneRecorder> record;
     std::optional<double> settled;  ///< when the choice became final [s]
   };
   const auto watch = std::make_shared<Watch>();
-  return {canonical_text(*config), [watch, mesh, c = *config](const FemFrame& frame) {
+  return {canonical_text(*config),
+          [watch, mesh = section.mesh, materials = fem::history_materials(section, run),
+           c = *config](const FemFrame& frame) {
             if (!watch->record) {
-              watch->record.emplace(mesh, frame, c);
+              watch->record.emplace(mesh, materials, frame, c);
               return false;
             }
             watch->record->append(frame);
@@ -40,7 +43,7 @@ struct FemRun {
   static constexpr std::string_view name = "fem.run";
   static constexpr std::string_view doc =
       "Gravity and shaking of a saturated section, with the finite element method.";
-  static constexpr int version = 2;
+  static constexpr int version = 3;
   static constexpr bool checkpoints = true;
   using Config = FemRunConfig;
   struct Inputs {
@@ -68,11 +71,10 @@ struct FemRun {
     p.water = config.water;
     if (!p.section) return p;
     check_water(config, p.section->mesh, found);
-    for (const MaterialName& m : p.section->materials)
-      if (const auto at = config.materials.find(m.name); at != config.materials.end())
-        p.density[m.tag] = at->second.density;
     (void)fem::build_model(*p.section, config);  // names, sets and ends against the mesh
-    if (config.stop_at_transfer) (void)zone_parts(p.section->mesh, *config.stop_at_transfer, true);
+    p.materials = fem::history_materials(*p.section, config);
+    if (config.stop_at_transfer)
+      (void)zone_parts(p.section->mesh, p.materials, *config.stop_at_transfer);
     return p;
   }
   static StageResult run(const RunContext& context, const Config& config, const Inputs& in,
@@ -80,7 +82,7 @@ struct FemRun {
     const SectionMesh section = read_section_mesh(in.mesh.path);
     const FemFacts f = run_fem(section, read_motion_file(in.motion.path), config,
                                {out.history.path, context.folder / "checkpoint"}, context.threads,
-                               context.progress, stop_rule(section.mesh, config.stop_at_transfer));
+                               context.progress, stop_rule(section, config));
     nlohmann::ordered_json facts = {{"fem_end_s", f.end_time},
                                     {"fem_stopped_by_displacement", f.stopped},
                                     {"fem_stopped_at_transfer", f.stopped_by_rule},

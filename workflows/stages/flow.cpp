@@ -12,7 +12,7 @@ namespace {
 struct FlowStage {
   static constexpr std::string_view name = "mpm.run";
   static constexpr std::string_view doc = "The runout, with the material point method.";
-  static constexpr int version = 4;
+  static constexpr int version = 5;
   static constexpr bool checkpoints = true;
   using Config = FlowConfig;
   struct Inputs {
@@ -27,11 +27,10 @@ struct FlowStage {
   static std::any preview(const Config& config, const Previews& in, Findings& found) {
     Preview p = merged(in);
     p.flow = config;
-    if (!p.map || p.map->compat != Compat::none) return p;
+    if (!p.map) return p;
     compare_cells(config, *p.map, found);
-    if (!p.section) return p;
-    const Soil soil = soil_of(*p.section, *p.map);
-    check_toe(config, soil, found);
+    if (!p.section || p.materials.empty()) return p;
+    const Soil soil = soil_of(*p.section, *p.map, p.materials);
     check_edges(config, soil, found);
     check_ground(config, soil, found);
     check_cells(config, soil, found);
@@ -42,13 +41,18 @@ struct FlowStage {
   static StageResult run(const RunContext& context, const Config& config, const Inputs& in,
                          const Outputs& out) {
     const FlowPaths paths{out.history.path, context.folder / "checkpoint"};
-    const FlowFacts f = run_flow(read_particles(in.particles.path), config, paths, context.threads,
-                                 context.progress);
+    const ParticleSet particles = read_particles(in.particles.path);
+    const FlowFacts f = run_flow(particles, config, paths, context.threads, context.progress);
     const double width = config.extrude ? config.extrude->width : 1.0;
     const double rate = f.step_seconds > 0.0 ? f.updates_this_call / f.step_seconds : 0.0;
     nlohmann::ordered_json facts = {{"runout_m", f.last.runout},
                                     {"front_m", f.last.front},
-                                    {"toe_m", config.toe},
+                                    {"front_equal_mass_m", f.last.front_equal_mass},
+                                    {"front_995_m", f.last.front_995},
+                                    {"front_99_m", f.last.front_99},
+                                    {"front_95_m", f.last.front_95},
+                                    {"height_m", f.last.height},
+                                    {"toe_m", particles.toe},
                                     {"mass_error", f.last.mass_error},
                                     {"energy_error", f.last.energy_error},
                                     {"flow_end_s", f.end_time},
@@ -60,7 +64,11 @@ struct FlowStage {
                                     {"flow_point_updates_per_s", rate}};
     if (config.absorbing.left || config.absorbing.right || config.absorbing.bottom)
       facts["absorbed_energy_j_per_m"] = f.absorbed / width;
-    return {.facts = facts.dump(), .publish = {}};
+    return {.facts = facts.dump(),
+            .publish = {},
+            .headlines = {{"runout_m", "runout", "m"},
+                          {"mass_error", "mass error"},
+                          {"energy_error", "energy error"}}};
   }
 };
 

@@ -12,7 +12,7 @@ namespace {
 struct ImportOpenSees {
   static constexpr std::string_view name = "import.opensees";
   static constexpr std::string_view doc = "Reads mesh and recorders of an OpenSees model.";
-  static constexpr int version = 2;
+  static constexpr int version = 3;
   static constexpr bool checkpoints = false;
   using Config = OpenSeesConfig;
   struct Inputs {
@@ -34,9 +34,11 @@ struct ImportOpenSees {
     section.mesh = std::move(import.mesh);
     Preview p;
     p.shakes = config.shaking.has_value();
+    p.materials = std::move(import.materials);
     p.section = std::make_shared<const SectionMesh>(std::move(section));
     found.warnings = std::move(import.warnings);
     check_size(p.section->mesh, found);
+    check_densities(p.materials, found);
     return p;
   }
   static StageResult run(const RunContext& context, const Config& config, const Inputs&,

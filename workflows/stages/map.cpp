@@ -11,7 +11,7 @@ namespace {
 struct MapStage {
   static constexpr std::string_view name = "transfer.map";
   static constexpr std::string_view doc = "Carries the state to material points, with an audit.";
-  static constexpr int version = 2;
+  static constexpr int version = 3;
   static constexpr bool checkpoints = false;
   using Config = MapConfig;
   struct Inputs {
@@ -34,17 +34,11 @@ struct MapStage {
   static std::any preview(const Config& config, const Previews& in, Findings& found) {
     Preview p = merged(in);
     p.map = config;
-    if (!p.section || config.compat != Compat::none) return p;
-    const Soil soil = soil_of(*p.section, config);
-    check_map_materials(config, *p.section, soil, found);
-    check_map_tags(config, *p.section, p.zone, found);
+    if (!p.section || p.materials.empty()) return p;
+    const Soil soil = soil_of(*p.section, config, p.materials);
+    check_map_materials(config, p.materials, soil, found);
+    check_map_names(config, *p.section, p.materials, p.zone, found);
     check_memory(config, soil, kUnset, physical_memory(), found);
-    compare_densities(config, p.density, "fem.run", found);
-    if (!p.zone) return p;
-    std::map<int, double> of_zone;
-    for (const std::vector<double>& row : p.zone->densities)
-      of_zone[static_cast<int>(row[0])] = row[1];
-    compare_densities(config, of_zone, "transfer.zone", found);
     return p;
   }
   static StageResult run(const RunContext& context, const Config& config, const Inputs& in,

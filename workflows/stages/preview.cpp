@@ -10,8 +10,9 @@ Preview merged(const Previews& inputs) {
     if (!all.section) all.section = p->section;
     all.shakes = all.shakes || p->shakes;
     if (!all.end) all.end = p->end;
-    all.density.insert(p->density.begin(), p->density.end());
+    if (all.materials.empty()) all.materials = p->materials;
     if (!all.water) all.water = p->water;
+    if (!all.toe) all.toe = p->toe;
     if (!all.stop) all.stop = p->stop;
     if (!all.zone) all.zone = p->zone;
     if (!all.map) all.map = p->map;

@@ -1,5 +1,6 @@
 #pragma once
 #include "fem/config.hpp"
+#include "model/history_material.hpp"
 #include "model/section_mesh.hpp"
 #include "mpm/run/flow_config.hpp"
 #include "transfer/map/map_config.hpp"
@@ -7,9 +8,9 @@
 #include "transfer/zone/zone_config.hpp"
 #include "workflows/engine/stage.hpp"
 
-#include <map>
 #include <memory>
 #include <optional>
+#include <vector>
 
 /// What later stages may compare their settings with before anything runs: the section and the
 /// settings of the stages that feed them.
@@ -19,8 +20,9 @@ struct Preview {
   std::shared_ptr<const SectionMesh> section;  ///< null where only a run can tell
   bool shakes = false;                         ///< the history has more than the state at rest
   std::optional<double> end;                   ///< of the shaking, if settings say it [s]
-  std::map<int, double> density;               ///< by material tag, of the finite elements [kg/m3]
+  std::vector<HistoryMaterial> materials;      ///< of the section; empty where only a run can tell
   std::optional<WaterConfig> water;            ///< of the finite elements
+  std::optional<double> toe;                   ///< that a report gives [m]
   std::optional<StopAtTransferConfig> stop;
   std::optional<ZoneConfig> zone;
   std::optional<MapConfig> map;

@@ -2,11 +2,11 @@
 
 #include "model/motion_file.hpp"
 #include "report/figures.hpp"
+#include "workflows/stages/cross_checks.hpp"
 #include "workflows/stages/preview.hpp"
 #include "workflows/stages/stage_list.hpp"
 
 #include <chrono>
-#include <cmath>
 #include <cstdlib>
 #include <ctime>
 
@@ -23,18 +23,34 @@ std::string date_of_today() {
   return fmt::format("{:04}-{:02}-{:02}", day.tm_year + 1900, day.tm_mon + 1, day.tm_mday);
 }
 
-/// Motion of the first stage before the report that has one.
+/// Motion of the first stage before the report that has one, if it was kept.
 std::optional<GroundMotion> motion_of(const std::vector<EarlierStage>& stages) {
   for (const EarlierStage& stage : stages)
-    if (const auto out = stage.outputs.find("motion"); out != stage.outputs.end())
+    if (const auto out = stage.outputs.find("motion");
+        out != stage.outputs.end() && std::filesystem::exists(out->second.path))
       return read_motion_file(out->second.path);
   return std::nullopt;
+}
+
+std::vector<Headline> headlines(const ReportFacts& f) {
+  Headline runout{"runout_m", "runout", "m"};
+  // How far the front stopped before the toe says whether the toe is the right one.
+  if (f.runout == 0.0)
+    runout.note = fmt::format("the front, at x = {:.4g} m, is {:.4g} m short of the toe", f.front,
+                              f.toe - f.front);
+  std::vector<Headline> all{std::move(runout)};
+  for (const auto& [window, depth] : f.liquefaction_depth)
+    all.push_back({"liquefaction_depth_" + window + "_m", "liquefaction depth, " + window, "m"});
+  all.push_back({"transfer_time_s", "transfer at", "s"});
+  all.push_back({"mass_error", "mass error"});
+  all.push_back({"energy_error", "energy error"});
+  return all;
 }
 
 struct ReportStage {
   static constexpr std::string_view name = "report.runout";
   static constexpr std::string_view doc = "Facts, figures, tables and ParaView files of a runout.";
-  static constexpr int version = 3;
+  static constexpr int version = 5;
   static constexpr bool checkpoints = false;
   static constexpr bool reads_warnings = true;
   static constexpr bool reads_earlier = true;
@@ -63,6 +79,7 @@ struct ReportStage {
   }
   static std::any preview(const Config& config, const Previews& in, Findings& found) {
     Preview p = merged(in);
+    p.toe = config.toe;
     if (p.flow && p.flow->extrude)
       found.errors.emplace_back(
           "the runout has three dimensions (the report draws sections) take this stage out of the "
@@ -72,11 +89,8 @@ struct ReportStage {
         found.errors.push_back(
             fmt::format("regions.{}: {} corners (a region needs three or more) give its outline",
                         name, region.outline.size()));
-    if (p.flow && config.toe &&
-        std::abs(*config.toe - p.flow->toe) > 1e-9 * (1.0 + std::abs(p.flow->toe)))
-      found.warnings.push_back(fmt::format(
-          "toe: x = {:g} m, but the runout stage has {:g} m: its time series counts from there.",
-          *config.toe, p.flow->toe));
+    if (config.toe && p.flow && p.map && p.section && !p.materials.empty())
+      check_toe(*config.toe, *p.flow, soil_of(*p.section, *p.map, p.materials), found);
     return p;
   }
   static StageResult run(const RunContext& context, const Config& config, const Inputs& in,
@@ -97,7 +111,10 @@ struct ReportStage {
     for (const EarlierStage& s : context.earlier)
       inputs.stages.push_back({s.name, s.uses, s.settings, s.facts});
     const ReportFacts facts = write_report(inputs, config, out.report.path, context.progress);
-    StageResult result{.facts = to_json(facts), .publish = {"report"}, .warnings = facts.warnings};
+    StageResult result{.facts = to_json(facts),
+                       .publish = {"report"},
+                       .warnings = facts.warnings,
+                       .headlines = headlines(facts)};
     for (const char* file : {"report/flow.pvd", "report/zone.pvd"})
       if (std::filesystem::exists(context.folder / file)) result.publish.emplace_back(file);
     if (config.figures) {

@@ -10,6 +10,7 @@ std::vector<StageType> all_stages() {
           fem_run_stage(),
           zone_stage(),
           map_stage(),
+          sordo2024_stage(),
           flow_stage(),
           report_stage()};
 }

@@ -13,6 +13,7 @@ StageType motion_prepare_stage();
 StageType fem_run_stage();
 StageType zone_stage();
 StageType map_stage();
+StageType sordo2024_stage();
 StageType flow_stage();
 StageType report_stage();
 

@@ -18,21 +18,34 @@ std::vector<std::string> zone_warnings(const LiquefactionZone& zone, const ZoneC
     const double s = zone.sigma_v0[e];
     outside += !(s >= config.strength.table.front()[0] && s <= config.strength.table.back()[0]);
   }
-  if (liquefied == 0) return {"no element has liquefied at the transfer: nothing weakens the dam."};
+  std::vector<std::string> warnings;
+  for (const std::string& note : zone.notes)
+    if (note.starts_with("r_u reaches")) warnings.push_back(note + ".");
+  if (liquefied == 0)
+    warnings.emplace_back("no element has liquefied at the transfer: nothing weakens the dam.");
   constexpr double kMany = 0.5;
   if (static_cast<double>(outside) > kMany * static_cast<double>(liquefied))
-    return {fmt::format(
+    warnings.push_back(fmt::format(
         "{} of {} liquefied elements lie outside strength.table ({:g} to {:g} kPa): its end values "
         "decide their strength.",
         outside, liquefied, config.strength.table.front()[0] / 1e3,
-        config.strength.table.back()[0] / 1e3)};
-  return {};
+        config.strength.table.back()[0] / 1e3));
+  return warnings;
+}
+
+void add_depths(nlohmann::ordered_json& facts, const LiquefactionZone& zone, std::size_t i) {
+  const std::string name = "liquefaction_depth_" + zone.window_names[i];
+  facts[name + "_m"] = zone.window_depth_max[i];
+  facts[name + "_any_node_m"] = zone.window_depth_any[i];
+  facts[name + "_interpolated_m"] = zone.window_depth_interpolated[i];
+  facts[name + "_strong_shaking_m"] = zone.window_depth_strong[i];
+  facts[name + "_before_slide_m"] = zone.window_depth_before_slide[i];
 }
 
 struct ZoneStage {
   static constexpr std::string_view name = "transfer.zone";
   static constexpr std::string_view doc = "Finds the liquefied zone and the time of transfer.";
-  static constexpr int version = 2;
+  static constexpr int version = 3;
   static constexpr bool checkpoints = false;
   using Config = ZoneConfig;
   struct Inputs {
@@ -55,8 +68,9 @@ struct ZoneStage {
           "earlier time or a later `end` of fem.run",
           *config.transfer.at, *p.end));
     if (!p.section) return p;
-    check_pond(config, p.section->mesh, found);
-    (void)zone_parts(p.section->mesh, config, p.shakes);
+    if (p.materials.empty()) return p;
+    (void)zone_parts(p.section->mesh, p.materials, config);
+    check_pond(config, p.section->mesh, p.materials, found);
     return p;
   }
   static StageResult run(const RunContext& context, const Config& config, const Inputs& in,
@@ -65,10 +79,19 @@ struct ZoneStage {
     write_zone(out.zone.path, zone);
     nlohmann::ordered_json facts = {{"transfer_time_s", zone.transfer_time},
                                     {"transfer_reason", zone.transfer_reason}};
-    for (std::size_t i = 0; i < zone.window_names.size(); ++i)
-      facts["liquefaction_depth_" + zone.window_names[i] + "_m"] = zone.window_depth_max[i];
+    StageResult result{.facts = {}, .publish = {}, .warnings = zone_warnings(zone, config)};
+    for (std::size_t i = 0; i < zone.window_names.size(); ++i) {
+      add_depths(facts, zone, i);
+      const std::string& name = zone.window_names[i];
+      result.headlines.push_back(
+          {"liquefaction_depth_" + name + "_m", "liquefaction depth, " + name, "m"});
+    }
+    result.headlines.push_back({"transfer_time_s", "transfer at", "s"});
+    if (is_set(zone.onset_time)) facts["onset_time_s"] = zone.onset_time;
+    facts["strong_shaking_end_s"] = zone.strong_shaking_end;
     facts["zone_notes"] = zone.notes;
-    return {.facts = facts.dump(), .publish = {}, .warnings = zone_warnings(zone, config)};
+    result.facts = facts.dump();
+    return result;
   }
 };
 

@@ -1,0 +1,221 @@
+#include "cli/command.hpp"
+#include "cli/signals.hpp"
+#include "cli/study_display.hpp"
+#include "core/check.hpp"
+#include "core/memory.hpp"
+#include "study/page/page.hpp"
+#include "study/run/clean.hpp"
+#include "study/run/pool.hpp"
+#include "workflows/engine/lock.hpp"
+#include "workflows/engine/result_folder.hpp"
+#include "workflows/stages/stage_list.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <sched.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace fs = std::filesystem;
+
+namespace flowslide::cli {
+namespace {
+
+/// Some rows failed, the others are there.
+constexpr int kRowsFailed = 1;
+
+struct StudyArguments {
+  std::string file, out;
+  int jobs = 0, threads = 0;
+  bool dry_run = false, quiet = false, json = false, retry = false;
+  std::vector<std::string> allowed_programs;
+};
+
+std::size_t processors() {
+  cpu_set_t set;
+  return sched_getaffinity(0, sizeof set, &set) == 0
+             ? static_cast<std::size_t>(std::max(1, CPU_COUNT(&set)))
+             : 1;
+}
+
+fs::path study_folder(const StudyArguments& args, const study::Plan& plan) {
+  const fs::path folder = args.out.empty() ? fs::path("runs") / plan.name : fs::path(args.out);
+  std::error_code error;
+  if (!fs::exists(folder / study::kPlanFile, error) && fs::exists(folder / "run.lock", error))
+    throw InputError(fmt::format("{}: holds a single run (its results would be mixed with those of "
+                                 "the study). Choose another --out.",
+                                 folder.string()));
+  return fs::absolute(folder);
+}
+
+void expect_allowed(const study::Plan& plan, const std::vector<std::string>& allowed) {
+  for (const std::string& program : plan.programs)
+    if (std::find(allowed.begin(), allowed.end(), program) == allowed.end())
+      throw InputError(fmt::format(
+          "{}: a stage would start '{}' (a workflow file from somebody else could name any program). "
+          "If you trust it, add --allow-python '{}'.",
+          plan.file.string(), program, program));
+}
+
+/// The same program again, with the job as its argument: it shows in the list of processes, and can
+/// be repeated by hand.
+int become_stage(const study::Job& job) {
+  std::string program = "flowslide", first = "study", second = "stage", text = to_text(job);
+  std::array<char*, 5> arguments{program.data(), first.data(), second.data(), text.data(), nullptr};
+  ::execv("/proc/self/exe", arguments.data());
+  throw FileError("the program cannot start itself (is /proc there?)");
+}
+
+int run_stage_of_study(const std::string& text) {
+  study::run_job_aloud(study::job_from(text), all_stages(), &stop_on_signal());
+  return 0;
+}
+
+study::PoolOptions pool_options(const StudyArguments& args) {
+  study::PoolOptions options;
+  options.threads = args.threads > 0 ? static_cast<std::size_t>(args.threads) : processors();
+  options.jobs = args.jobs > 0 ? static_cast<std::size_t>(args.jobs) : options.threads;
+  constexpr double kShare = 0.9;
+  options.memory = kShare * available_memory();
+  options.retry = args.retry;
+  options.allowed_programs = args.allowed_programs;
+  options.stop_requested = &stop_on_signal();
+  options.body = become_stage;
+  return options;
+}
+
+int run(const StudyArguments& args) {
+  const study::Plan plan = study::make_plan(study::read_study(args.file), all_stages());
+  expect_allowed(plan, args.allowed_programs);
+  const fs::path folder = study_folder(args, plan);
+  const study::Store store(folder);
+  study::StudyState progress(plan, store);
+  const StudyOutput kind = args.json    ? StudyOutput::json
+                           : args.quiet ? StudyOutput::quiet
+                           : ::isatty(STDOUT_FILENO) == 1 ? StudyOutput::terminal
+                                                          : StudyOutput::lines;
+  StudyDisplay display(plan, progress, kind);
+  display.begin(folder);
+  if (args.dry_run) {
+    display.plan();
+    return 0;
+  }
+  make_folders(folder / "stages");
+  study::write_plan(folder, plan);
+  try {
+    run_pool(plan, store, progress, pool_options(args), display.events());
+  } catch (...) {
+    display.close();
+    throw;
+  }
+  display.close();
+  const study::Table table = make_table(plan, progress);
+  write_tables(folder, plan, table);
+  write_page(folder, plan, table);
+  display.end(folder, table);
+  const bool failed = std::any_of(plan.rows.begin(), plan.rows.end(), [&](const study::Row& row) {
+    return progress.row_state(row) != study::State::done;
+  });
+  return failed ? kRowsFailed : 0;
+}
+
+struct Opened {
+  fs::path folder;
+  study::Plan plan;
+  study::Store store;
+  study::StudyState progress;
+  explicit Opened(const std::string& name)
+      : folder(fs::absolute(name)), plan(study::read_plan(folder)), store(folder), progress(plan, store) {}
+};
+
+int status(const StudyArguments& args) {
+  const Opened study(args.out);
+  StudyDisplay(study.plan, study.progress, args.json ? StudyOutput::json : StudyOutput::lines)
+      .status(study.folder, study::bytes_of(study.folder / "stages"));
+  return 0;
+}
+
+int table(const StudyArguments& args) {
+  const Opened study(args.out);
+  fmt::print("{}", to_csv(make_table(study.plan, study.progress)));
+  return 0;
+}
+
+int report(const StudyArguments& args) {
+  const Opened study(args.out);
+  const study::Table table = make_table(study.plan, study.progress);
+  write_tables(study.folder, study.plan, table);
+  write_page(study.folder, study.plan, table);
+  fmt::print("{}\n", (study.folder / "study.html").string());
+  return 0;
+}
+
+int clean(const StudyArguments& args) {
+  const Opened study(args.out);
+  const study::Cleaned c = study::clean(study.plan, study.store, study.progress, args.dry_run);
+  fmt::print("{} results that no row needs, {:.1f} MB{}\n", c.results, c.bytes / 1e6,
+             args.dry_run ? " (would go)" : " taken away");
+  if (c.in_use > 0) fmt::print("{} more are in use by another process\n", c.in_use);
+  return 0;
+}
+
+using Arguments = std::shared_ptr<StudyArguments>;
+
+CLI::App* add(CLI::App& study, Command& action, const std::string& name, const std::string& doc,
+              const Arguments& args, int (*act)(const StudyArguments&)) {
+  CLI::App* command = study.add_subcommand(name, doc);
+  command->callback([args, act, &action] { action = [args, act] { return act(*args); }; });
+  return command;
+}
+
+void add_study_run(CLI::App& study, Command& action) {
+  const auto args = std::make_shared<StudyArguments>();
+  CLI::App* command = add(study, action, "run", "Compute what is missing of a study", args, run);
+  command->add_option("file", args->file, "study, FILE.yaml")->required();
+  command->add_option("--out", args->out, "folder of the study [runs/<name of the study>]");
+  command->add_option("--jobs", args->jobs, "stages side by side [one per processor]")
+      ->check(CLI::Range(1, 4096));
+  command->add_option("--threads", args->threads, "threads of all of them together [all]")
+      ->check(CLI::Range(1, 4096));
+  command->add_option("--allow-python", args->allowed_programs,
+                      "interpreter that the workflow may name in 'python'")
+      ->take_all()
+      ->allow_extra_args(false);
+  command->add_flag("--retry", args->retry, "also what has failed for good before");
+  command->add_flag("--dry-run", args->dry_run, "only tell what would run");
+  command->add_flag("--quiet", args->quiet, "only tell what failed");
+  command->add_flag("--json", args->json, "one JSON object per line");
+}
+
+}  // namespace
+
+void add_study(CLI::App& app, Command& action) {
+  CLI::App* study = app.add_subcommand("study", "Many rows of a workflow, their table and report");
+  study->require_subcommand(1);
+  add_study_run(*study, action);
+  const auto on_folder = [&](const char* name, const char* doc, int (*act)(const StudyArguments&)) {
+    const auto args = std::make_shared<StudyArguments>();
+    CLI::App* command = add(*study, action, name, doc, args, act);
+    command->add_option("folder", args->out, "folder of the study, DIR")->required();
+    return std::pair{command, args};
+  };
+  const auto [status_command, status_args] = on_folder("status", "Tell how far a study is", status);
+  status_command->add_flag("--json", status_args->json, "as JSON");
+  on_folder("table", "Print the table of all rows as CSV", table);
+  on_folder("report", "Write tables, figures and page again", report);
+  const auto [clean_command, clean_args] =
+      on_folder("clean", "Take away results that no row needs", clean);
+  clean_command->add_flag("--dry-run", clean_args->dry_run, "only tell how much");
+
+  // What `run` starts for each stage; of no use to people.
+  const auto job = std::make_shared<std::string>();
+  CLI::App* stage = study->add_subcommand("stage", "Compute one stage of a study")->group("");
+  stage->add_option("job", *job, "the job")->required();
+  stage->callback([job, &action] { action = [job] { return run_stage_of_study(*job); }; });
+}
+
+}  // namespace flowslide::cli

@@ -1,0 +1,46 @@
+#pragma once
+#include "study/run/pool.hpp"
+#include "study/table/table.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace flowslide::cli {
+
+enum class StudyOutput { terminal, lines, quiet, json };
+
+/// Tells on stdout how a study goes: on a terminal one line per running stage and a total that are
+/// redrawn, elsewhere a line per stage that has ended, with json an object per line. Failures go to
+/// stderr when they happen.
+class StudyDisplay {
+ public:
+  StudyDisplay(const study::Plan& plan, const study::StudyState& progress, StudyOutput kind)
+      : plan_(plan), progress_(progress), kind_(kind) {}
+
+  void begin(const std::filesystem::path& folder);
+  /// What would run.
+  void plan() const;
+  [[nodiscard]] study::PoolEvents events();
+  /// Takes the lines away that are redrawn.
+  void close();
+  void end(const std::filesystem::path& folder, const study::Table& table) const;
+  void status(const std::filesystem::path& folder, double bytes) const;
+
+ private:
+  void ended(const study::StageEnd& end);
+  void tick(const study::PoolView& view);
+  [[nodiscard]] std::string total(const study::PoolView& view) const;
+  [[nodiscard]] std::string name_of(std::size_t node) const;
+  /// Rows with the same cause on one line: a mistake in one setting stops many.
+  [[nodiscard]] std::vector<std::string> failures() const;
+
+  const study::Plan& plan_;
+  const study::StudyState& progress_;
+  StudyOutput kind_;
+  std::size_t drawn_lines_ = 0, ended_ = 0;
+  std::chrono::steady_clock::time_point drawn_{};
+};
+
+}  // namespace flowslide::cli

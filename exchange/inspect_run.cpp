@@ -1,0 +1,84 @@
+#include "exchange/inspect_run.hpp"
+
+#include "core/check.hpp"
+#include "workflows/engine/lock.hpp"
+#include "workflows/engine/publish.hpp"
+#include "workflows/engine/session.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace fs = std::filesystem;
+
+namespace flowslide {
+namespace {
+
+/// Folders in a folder, links left out, by name.
+std::vector<fs::path> folders_in(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) return found;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.is_directory() && !entry.is_symlink()) found.push_back(entry.path());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::vector<std::string> problems_of_result(const fs::path& result) {
+  const RecordRead read = read_record(result);
+  if (!read.record) return {read.problem};
+  return verify(*read.record, result).problems;
+}
+
+/// Stages without checkpoints leave nothing that could be continued.
+std::vector<std::string> problems_of_work(const fs::path& work) {
+  std::error_code error;
+  if (!fs::exists(work / kSessionFile, error)) return {};
+  const std::string problem = read_session(work).problem;
+  return problem.empty() ? std::vector<std::string>{} : std::vector{problem};
+}
+
+void add_problems(Json& list, const fs::path& folder) {
+  for (const fs::path& stage : folders_in(folder / "stages"))
+    for (const fs::path& result : folders_in(stage)) {
+      const bool work = result.extension() == ".partial";
+      for (const std::string& text : work ? problems_of_work(result) : problems_of_result(result))
+        list.push_back(
+            fmt::format("{}: {}", result.lexically_relative(folder).generic_string(), text));
+    }
+}
+
+}  // namespace
+
+Json inspect_run(const fs::path& folder) {
+  const auto [lock, problem] = read_lock(folder);
+  if (!lock && problem.empty())
+    throw InputError(
+        fmt::format("{}: a folder without run.lock (no run of flowslide). Name one of "
+                    "its files.",
+                    folder.string()));
+  Json j = {{"kind", "run"}};
+  Json problems = Json::array();
+  if (!lock) problems.push_back(problem);
+  const SealedJson result = read_sealed(folder / kResultFile);
+  if (lock) {
+    j["workflow"] = lock->workflow;
+    j["file"] = lock->file;
+    j["complete"] = lock->complete && result.json;
+    j["stages"] = Json::object();
+    for (const auto& [name, record] : lock->stages)
+      j["stages"][name] = {{"uses", record.uses},
+                           {"seconds", record.seconds},
+                           {"key", record.key},
+                           {"program", record.program}};
+    for (const std::string& text : problems_at_top(folder, *lock)) problems.push_back(text);
+  }
+  add_problems(problems, folder);
+  j["problems"] = problems;
+  if (result.json)
+    for (const auto& [key, value] : result.json->items())
+      if (value.is_number() && key != "schema") j["result"][key] = value;
+  return j;
+}
+
+}  // namespace flowslide

@@ -1,0 +1,22 @@
+#pragma once
+#include "study/table/analysis.hpp"
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace flowslide::study {
+
+struct Page {
+  std::string html;                             ///< one file, opens offline
+  std::map<std::string, std::string> figures;  ///< SVG by file name
+};
+
+Page make_page(const Plan& plan, const Table& table, const StudyFindings& findings);
+
+/// table.csv, columns.csv, table.h5, analysis.json, study.html and figures/ in the folder of the
+/// study. Throws FileError.
+void write_tables(const std::filesystem::path& folder, const Plan& plan, const Table& table);
+void write_page(const std::filesystem::path& folder, const Plan& plan, const Table& table);
+
+}  // namespace flowslide::study

@@ -1,0 +1,16 @@
+#pragma once
+#include "config/yaml.hpp"
+#include "study/plan/study_file.hpp"
+
+/// Keys of a study file, one function each. All throw InputError with the place.
+namespace flowslide::study {
+
+Settings read_set(const YamlNode& node);
+std::vector<Variable> read_vary(const YamlNode& node);
+Sample read_sample(const YamlNode& node);
+Repeat read_repeat(const YamlNode& node);
+
+/// The place as it stands in messages.
+std::string place_of(const YamlNode& node);
+
+}  // namespace flowslide::study

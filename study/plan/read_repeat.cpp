@@ -1,0 +1,53 @@
+#include "study/plan/read_parts.hpp"
+#include "study/plan/yaml_read.hpp"
+
+namespace flowslide::study {
+namespace {
+
+constexpr std::size_t kMostRepeats = 1000;
+constexpr double kUsualStep = 1e-6;
+
+double read_step(const YamlNode& node) {
+  const double step = read_number(node);
+  constexpr double kLargest = 1e-3;
+  if (!(step >= 0.0 && step <= kLargest))
+    throw node.error(fmt::format(
+        "{:g} is no disturbance (a change from 0 to {:g} means nothing to the dam; a larger one is "
+        "an input). Make it smaller, or use 'vary'.",
+        step, kLargest));
+  return step;
+}
+
+}  // namespace
+
+Repeat read_repeat(const YamlNode& node) {
+  Repeat repeat{.place = place_of(node), .count = 1, .motion = 0.0, .grid = false, .scale = {},
+                .rows = {}};
+  if (node.kind() == YamlNode::Kind::scalar) {
+    repeat.count = read_count(node, 1, kMostRepeats);
+    repeat.motion = kUsualStep;
+    repeat.grid = true;
+    return repeat;
+  }
+  allow_keys(node, {"count", "motion", "grid", "scale", "rows"});
+  repeat.count = read_count(need(node, "count", "how many realisations?"), 1, kMostRepeats);
+  const auto motion = node.find("motion"), grid = node.find("grid"), scale = node.find("scale");
+  if (!motion && !grid && !scale) {
+    repeat.motion = kUsualStep;
+    repeat.grid = true;
+  }
+  if (motion) repeat.motion = read_step(*motion);
+  if (grid) {
+    if (grid->scalar() != "true" && grid->scalar() != "false")
+      throw grid->error(fmt::format("'{}' is no switch. Write true or false.", grid->scalar()));
+    repeat.grid = grid->scalar() == "true";
+  }
+  if (scale)
+    for (const auto& [path, step] : scale->entries())
+      repeat.scale.emplace_back(path, read_step(step));
+  if (const auto rows = node.find("rows"))
+    for (const auto& [name, labels] : rows->entries()) repeat.rows[name] = read_texts(labels);
+  return repeat;
+}
+
+}  // namespace flowslide::study

@@ -1,0 +1,162 @@
+#include "core/units.hpp"
+#include "study/plan/read_parts.hpp"
+#include "study/plan/yaml_read.hpp"
+#include "workflows/engine/names.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+namespace flowslide::study {
+namespace {
+
+const std::vector<std::string> kStudyKeys{"workflow", "set",  "vary",   "sample",  "repeat",
+                                          "also",     "keep", "disk",   "limits",  "analysis"};
+
+/// Each name stands for one column of the table.
+void expect_names(const Part& part, const YamlNode& node) {
+  std::set<std::string> seen{"row", "id", "variant", "repeat", "state"};
+  const auto take = [&](const std::string& name) {
+    if (!is_name(name))
+      throw node.error(fmt::format("'{}' cannot be the name of a variable (it is a column of the "
+                                   "table). Use letters, digits, '-' and '_'.",
+                                   name));
+    if (!seen.insert(name).second)
+      throw node.error(fmt::format("there are two columns '{}'. Choose another name.", name));
+  };
+  for (const Variable& v : part.vary) take(v.name);
+  if (part.sample)
+    for (const SampledInput& i : part.sample->inputs) take(i.name);
+  if (!part.repeat) return;
+  for (const auto& [name, labels] : part.repeat->rows) {
+    const auto variable = std::find_if(part.vary.begin(), part.vary.end(),
+                                       [&, &name = name](const Variable& v) { return v.name == name; });
+    if (variable == part.vary.end())
+      throw InputError(fmt::format("{}: there is no variable '{}'. Name one of 'vary'.",
+                                   part.repeat->place, name));
+    for (const std::string& label : labels)
+      if (std::none_of(variable->choices.begin(), variable->choices.end(),
+                       [&](const Choice& c) { return c.label == label; }))
+        throw InputError(fmt::format("{}: '{}' is no value of '{}'. Take one as it is written there.",
+                                     part.repeat->place, label, name));
+  }
+}
+
+/// A part with its workflow; `above` gives what it does not say itself.
+Part read_part(const YamlNode& node, const std::string& variant, const YamlNode& workflow,
+               const Settings& set) {
+  Part part{.variant = variant,
+            .workflow = (workflow.folder() / workflow.scalar()).lexically_normal(),
+            .set = set,
+            .vary = {},
+            .sample = {},
+            .repeat = {}};
+  if (const auto vary = node.find("vary")) part.vary = read_vary(*vary);
+  if (const auto sample = node.find("sample")) part.sample = read_sample(*sample);
+  if (const auto repeat = node.find("repeat")) part.repeat = read_repeat(*repeat);
+  expect_names(part, node);
+  return part;
+}
+
+void read_parts(StudyFile& study, const YamlNode& node) {
+  const YamlNode workflow = need(node, "workflow", "a study varies a workflow");
+  Settings set;
+  if (const auto given = node.find("set")) set = read_set(*given);
+  if (workflow.kind() == YamlNode::Kind::map) {
+    for (const auto& [name, path] : workflow.entries())
+      study.parts.push_back(read_part(node, name, path, set));
+  } else {
+    study.parts.push_back(read_part(node, "base", workflow, set));
+  }
+  const auto also = node.find("also");
+  if (!also) return;
+  for (const auto& [name, more] : also->entries()) {
+    allow_keys(more, {"workflow", "set", "vary", "sample", "repeat"});
+    const auto own = more.find("workflow");
+    if (!own && workflow.kind() == YamlNode::Kind::map)
+      throw more.error("has no 'workflow' (the study has several). Name one.");
+    Settings own_set;
+    if (!own) own_set = set;
+    if (const auto given = more.find("set"))
+      for (auto& entry : read_set(*given)) own_set.push_back(std::move(entry));
+    study.parts.push_back(read_part(more, name, own.value_or(workflow), own_set));
+  }
+}
+
+double read_bytes(const YamlNode& node) {
+  const Amount amount = read_amount(node);
+  const double factor = amount.unit == "MB" ? 1e6 : amount.unit == "GB" ? 1e9
+                        : amount.unit == "TB" ? 1e12 : kUnset;
+  if (!(amount.value * factor > 0.0))
+    throw node.error(fmt::format("'{}' is no size. Write it as in 2 GB (MB, GB, TB).",
+                                 node.scalar()));
+  return amount.value * factor;
+}
+
+void read_limits(StudyFile& study, const YamlNode& node) {
+  allow_keys(node, {"stage_time"});
+  if (const auto time = node.find("stage_time")) {
+    try {
+      study.limits.stage_seconds = parse_quantity(time->scalar(), Dim::time);
+    } catch (const InputError& e) {
+      throw time->error(e.what());
+    }
+    if (!(study.limits.stage_seconds > 0.0)) throw time->error("is no time. Give one above 0.");
+  }
+}
+
+void read_analysis(StudyFile& study, const YamlNode& node) {
+  allow_keys(node, {"results", "thresholds", "seed"});
+  if (const auto results = node.find("results")) study.analysis.results = read_texts(*results);
+  if (const auto seed = node.find("seed"))
+    study.analysis.seed = read_count(*seed, 0, static_cast<std::size_t>(1) << 62u);
+  const auto pairs = node.find("thresholds");
+  if (pairs && pairs->kind() != YamlNode::Kind::list)
+    throw pairs->error("is no list of pairs. Write [[x, y]].");
+  if (pairs)
+    for (std::size_t i = 0; i < pairs->size(); ++i) {
+      const YamlNode pair = pairs->item(i);
+      if (pair.size() != 2) throw pair.error("is no pair of columns. Write [x, y].");
+      study.analysis.thresholds.emplace_back(pair.item(0).scalar(), pair.item(1).scalar());
+    }
+}
+
+}  // namespace
+
+StudyFile read_study(const std::filesystem::path& path) {
+  const YamlNode document = load_yaml(path);
+  if (document.kind() == YamlNode::Kind::map && document.find("stages") && !document.find("study"))
+    throw document.error("is a workflow (a study names one). Run it with 'flowslide run', or write "
+                         "a study: docs/guide/studies.md.");
+  allow_keys(document, {"schema", "name", "description", "study"});
+  StudyFile study;
+  study.file = path;
+  const YamlNode schema = need(document, "schema", "the version of its format");
+  if (schema.scalar() != "1")
+    throw schema.error(fmt::format("schema {} is not known to this program (it reads 1).",
+                                   schema.scalar()));
+  const YamlNode name = need(document, "name", "results are kept under it");
+  study.name = name.scalar();
+  if (!is_name(study.name))
+    throw name.error(fmt::format("'{}' cannot be a name (it becomes a folder). Use letters, digits, "
+                                 "'-' and '_'.",
+                                 study.name));
+  if (const auto text = document.find("description")) study.description = text->scalar();
+  const YamlNode node = need(document, "study", "nothing to run");
+  allow_keys(node, kStudyKeys);
+  read_parts(study, node);
+  if (const auto keep = node.find("keep")) {
+    const auto at = std::find(kKeeps.begin(), kKeeps.end(), keep->scalar());
+    if (at == kKeeps.end())
+      throw keep->error(fmt::format("'{}' is nothing to keep. Take one of {}.", keep->scalar(),
+                                    fmt::join(kKeeps, ", ")));
+    study.keep = static_cast<Keep>(at - kKeeps.begin());
+  }
+  if (const auto disk = node.find("disk")) study.disk_bytes = read_bytes(*disk);
+  if (const auto limits = node.find("limits")) read_limits(study, *limits);
+  if (const auto analysis = node.find("analysis")) read_analysis(study, *analysis);
+  return study;
+}
+
+}  // namespace flowslide::study

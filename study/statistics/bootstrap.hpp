@@ -1,0 +1,28 @@
+#pragma once
+#include "core/check.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace flowslide::study {
+
+/// A number with the interval that holds it in 95 % of the resamples.
+struct Estimate {
+  double value = kUnset, low = kUnset, high = kUnset;
+  std::size_t rows = 0;
+};
+
+inline constexpr std::size_t kResamples = 1000;
+
+/// A statistic of rows, given as the list of their numbers, of which some may occur several times.
+using Statistic = std::function<double(const std::vector<std::size_t>& rows)>;
+
+/// Percentile bootstrap (Efron 1979): rows are drawn with repetition as often as there are rows.
+/// Resamples in which the statistic is NaN are left out; without half of them there is no interval.
+Estimate bootstrap(std::size_t rows, std::uint64_t seed, const Statistic& statistic);
+
+/// The statistic in each resample.
+std::vector<double> resampled(std::size_t rows, std::uint64_t seed, const Statistic& statistic);
+
+}  // namespace flowslide::study

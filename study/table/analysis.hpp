@@ -1,0 +1,58 @@
+#pragma once
+#include "study/statistics/bootstrap.hpp"
+#include "study/statistics/effects.hpp"
+#include "study/statistics/least_squares.hpp"
+#include "study/statistics/repeats.hpp"
+#include "study/statistics/summary.hpp"
+#include "study/statistics/threshold.hpp"
+#include "study/table/table.hpp"
+
+#include <string>
+#include <vector>
+
+namespace flowslide::study {
+
+/// A number of the study and what it hangs on; x and y are columns of the table.
+struct Relation {
+  std::string x, y;
+  Estimate spearman;
+  Line line;
+};
+
+struct Swing {
+  std::string input, result;
+  Effect effect;
+};
+
+struct Threshold {
+  std::string x, y;
+  Ramp ramp;
+};
+
+/// Rows of the main variant over those of another that agree in all inputs both have.
+struct Comparison {
+  std::string variant, result;
+  std::string where;  ///< "c_soft 0.5"; empty: all
+  Estimate ratio;
+};
+
+/// What a study says, over the means of its repeats. docs/theory/study-statistics.md
+struct StudyFindings {
+  std::string variant;               ///< whose rows these are, but for the comparisons
+  std::vector<std::string> results;  ///< columns
+  std::vector<Scatter> scatter;      ///< of each result, over all variants
+  Repeats repeats;                   ///< of the rows of the table
+  std::vector<std::size_t> groups;   ///< those of the variant: indices into repeats.groups
+  std::vector<Relation> relations;
+  std::vector<Swing> swings;
+  std::vector<Threshold> thresholds;
+  std::vector<Exceedance> exceedance;  ///< of each result
+  std::vector<Comparison> comparisons;
+};
+
+StudyFindings analyse(const Plan& plan, const Table& table);
+
+/// Everything as JSON, numbers that are not known as null.
+std::string to_json_text(const Plan& plan, const StudyFindings& findings);
+
+}  // namespace flowslide::study

@@ -1,0 +1,108 @@
+#include "tests/cli/program.hpp"
+
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+using namespace flowslide;
+using namespace flowslide::cli::test;
+using Catch::Contains;
+
+namespace {
+
+/// Imports of one element with two rules, and more if asked for.
+void write_study(const Scratch& scratch, const std::string& more_values = "",
+                 const std::string& more_labels = "") {
+  write_model(scratch);
+  scratch.write("w.yaml", "schema: 1\nname: w\nstages:\n" + shake());
+  scratch.write("s.yaml",
+                "schema: 1\nname: s\nstudy:\n  workflow: w.yaml\n  vary:\n    rule:\n"
+                "      setting: stages.shake.with.sigma_zz\n"
+                "      values: [{rule: mean}, {rule: elastic, nu: 0.3}" +
+                    more_values + "]\n      labels: [mean, elastic" + more_labels + "]\n");
+}
+
+std::size_t lines_of(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+}  // namespace
+
+TEST_CASE("a study runs, is then done, and tells of itself", "[cli]") {
+  const Scratch scratch;
+  write_study(scratch);
+  CHECK_THAT(call(scratch, "study run s.yaml --dry-run").out, Contains("2 to run of 2"));
+  CHECK_FALSE(std::filesystem::exists(scratch / "runs"));
+  Outcome o = call(scratch, "study run s.yaml --jobs 2");
+  INFO(o.err);
+  REQUIRE(o.code == 0);
+  CHECK_THAT(o.out, Contains("2 done, 0 failed") && Contains("2/2 shake"));
+  const std::string table = read_text_file(scratch / "runs/s/table.csv");
+  CHECK(lines_of(table) == 3);
+  CHECK_THAT(table, Contains("base,mean,0,done") && Contains("base,elastic,0,done"));
+  CHECK(std::filesystem::exists(scratch / "runs/s/study.html"));
+  o = call(scratch, "study run s.yaml");
+  CHECK(o.code == 0);
+  CHECK_THAT(o.out, Contains("2 stages, 2 of them done") && !Contains("/2 shake"));
+  CHECK(read_text_file(scratch / "runs/s/table.csv") == table);
+  CHECK(call(scratch, "study table runs/s").out == table);
+  CHECK_THAT(call(scratch, "study status runs/s").out, Contains("2 rows done, 0 failed, 0 open"));
+  CHECK(call(scratch, "study report runs/s").code == 0);
+  CHECK_THAT(call(scratch, "study clean runs/s").out, Contains("0 results"));
+  CHECK(call(scratch, "study run s.yaml --quiet").out.empty());
+}
+
+TEST_CASE("a study tells programs as JSON", "[cli]") {
+  const Scratch scratch;
+  write_study(scratch);
+  const Outcome o = call(scratch, "study run s.yaml --json");
+  REQUIRE(o.code == 0);
+  std::istringstream in(o.out);
+  std::vector<std::string> events;
+  for (std::string line; std::getline(in, line);)
+    events.push_back(nlohmann::json::parse(line)["event"]);
+  CHECK(events == std::vector<std::string>{"begin", "done", "done", "end"});
+  const auto status = nlohmann::json::parse(call(scratch, "study status runs/s --json").out);
+  CHECK(status["done"] == 2);
+  CHECK(status["rows"][1]["set"][0] == "stages.shake.with.sigma_zz={rule: elastic, nu: 0.3}");
+}
+
+TEST_CASE("rows that fail are listed and give exit code 1", "[cli]") {
+  const Scratch scratch;
+  write_study(scratch, ", {rule: elastic, nu: 0.9}", ", wrong");
+  Outcome o = call(scratch, "study run s.yaml");
+  CHECK(o.code == 1);
+  CHECK_THAT(o.err, Contains("s.yaml:6:") && Contains("nu"));
+  CHECK_THAT(o.out, Contains("2 done, 1 failed") && Contains("failed: row 3 (rule wrong)"));
+  CHECK_THAT(call(scratch, "study status runs/s").out, Contains("failed: row 3 (rule wrong)"));
+  // Without it, the rest is there already.
+  write_study(scratch);
+  o = call(scratch, "study run s.yaml");
+  CHECK(o.code == 0);
+  CHECK_THAT(o.out, Contains("2 of them done"));
+}
+
+TEST_CASE("wrong studies end with the exit codes of the contract", "[cli]") {
+  const Scratch scratch;
+  write_study(scratch);
+  CHECK(call(scratch, "study").code == 2);
+  CHECK(call(scratch, "study rum s.yaml").code == 2);
+  CHECK(call(scratch, "study run none.yaml").code == 4);
+  CHECK(call(scratch, "study run w.yaml").code == 2);
+  CHECK(call(scratch, "study status .").code == 2);
+  CHECK(call(scratch, "study stage nonsense").code == 2);
+  // A folder of a single run is not taken for a study's.
+  REQUIRE(call(scratch, "run w.yaml --out single").code == 0);
+  const Outcome o = call(scratch, "study run s.yaml --out single");
+  CHECK(o.code == 2);
+  CHECK_THAT(o.err, Contains("holds a single run"));
+  scratch.write("bad.yaml", "schema: 1\nname: bad\nstudy:\n  workflow: w.yaml\n  vary: {a: {}}\n");
+  CHECK_THAT(call(scratch, "study run bad.yaml").err, Contains("error: bad.yaml:5:"));
+}
+
+TEST_CASE("on a terminal a study draws its running stages and a total", "[cli]") {
+  const Scratch scratch;
+  write_study(scratch);
+  const std::string text = on_terminal(scratch, "study run s.yaml", 60);
+  CHECK_THAT(text, Contains("ETA") && Contains("2 done, 0 failed"));
+}

@@ -1,0 +1,58 @@
+#include "core/check.hpp"
+#include "exchange/convert.hpp"
+#include "exchange/inspect.hpp"
+#include "model/history.hpp"
+#include "tests/support/materials.hpp"
+#include "tests/support/scratch.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace flowslide;
+using Catch::Contains;
+
+namespace {
+
+QuadMesh one_quad() {
+  QuadMesh m;
+  m.nodes = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
+  m.node_tags = {1, 2, 3, 4};
+  m.elements = {{0, 1, 2, 3}};
+  m.element_tags = {10};
+  m.element_material = {168};
+  return m;
+}
+
+void write_history(const std::filesystem::path& path) {
+  FemHistoryWriter out(path, one_quad(), {{"tailings", 168, 1870.0}}, {"a test", "given", {}});
+  FemFrame rest;
+  rest.displacement.resize(4);
+  rest.velocity.resize(4);
+  rest.pore_pressure.resize(4);
+  rest.stress.resize(1);
+  rest.strain.resize(1);
+  out.set_gravity(rest);
+  out.finish();
+}
+
+}  // namespace
+
+TEST_CASE("a file is told by what is in it") {
+  const Scratch scratch;
+  write_history(scratch / "h.h5");
+  const Json j = inspect(scratch / "h.h5");
+  CHECK(j["kind"] == "fem_history");
+  CHECK(j["materials"]["tailings"]["tag"] == 168);
+  CHECK(j["materials"]["tailings"]["density_kg_m3"] == 1870.0);
+  scratch.write("r.out", "0.0 1 2\n0.1 3 4\n");
+  CHECK(inspect(scratch / "r.out")["columns"] == 3);
+  CHECK_THROWS_AS(inspect(scratch / "none"), FileError);
+}
+
+TEST_CASE("a conversion is chosen by both ends") {
+  const Scratch scratch;
+  write_history(scratch / "h.h5");
+  CHECK_THROWS_WITH(convert({(scratch / "h.h5").string(), (scratch / "h.csv").string(), {}}),
+                    Contains("no conversion") && Contains("history.h5 -> NAME.pvd"));
+  convert({(scratch / "h.h5").string(), (scratch / "h.pvd").string(), {}});
+  CHECK(std::filesystem::exists(scratch / "h/h_0000.vtu"));
+}

@@ -1,0 +1,35 @@
+#include "core/hash.hpp"
+#include "study/plan/rows.hpp"
+#include "study/run/study_state.hpp"
+#include "tests/fuzz/input.hpp"
+#include "tests/fuzz/targets.hpp"
+
+namespace flowslide::fuzz {
+
+void study(Input input) {
+  Parts parts(input);
+  const auto path = file("study.yaml", parts.section());
+  file("cases.csv", parts.section());
+  accepts([&] { (void)study::expand(study::read_study(path)); });
+}
+
+/// As in records.cpp: the checksum is made anew.
+void study_plan(Input input) {
+  std::string text(input);
+  const std::string digest = sha256(text);
+  file("study.json", text + ",\n  \"sha256\": \"" + digest + "\"\n}\n");
+  accepts([&] {
+    const study::Plan plan = study::read_plan(folder().path());
+    const study::Store store(folder().path());
+    const study::StudyState state(plan, store);
+    for (const study::Row& row : plan.rows) {
+      (void)state.cause(row);
+      (void)row.label();
+    }
+    // What was read can be written, and is then read as the same.
+    study::write_plan(folder().path(), plan);
+    if (to_json(study::read_plan(folder().path())) != to_json(plan)) std::abort();
+  });
+}
+
+}  // namespace flowslide::fuzz

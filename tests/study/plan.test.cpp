@@ -1,0 +1,170 @@
+#include "study/plan/perturb.hpp"
+#include "tests/study/study_bench.hpp"
+
+#include <set>
+
+using namespace flowslide;
+using namespace flowslide::study;
+using namespace flowslide::study::sample;
+using Catch::Contains;
+
+namespace {
+
+std::vector<std::string> labels(const Plan& plan) {
+  std::vector<std::string> result;
+  for (const Row& row : plan.rows) result.push_back(row.label());
+  return result;
+}
+
+std::string refusal(const StudyBench& bench, const std::string& study) {
+  try {
+    (void)bench.plan(study);
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("Variables are crossed, the first changes slowest", "[study]") {
+  const StudyBench bench;
+  const Plan plan = bench.plan(kValues);
+  CHECK(labels(plan) == std::vector<std::string>{"one 1, factor 1", "one 1, factor 10",
+                                                 "one 2, factor 1", "one 2, factor 10",
+                                                 "one 3, factor 1", "one 3, factor 10"});
+  CHECK(plan.nodes.size() == 16);
+  CHECK(plan.rows[1].overrides == std::vector<std::string>{"stages.one.with.value=1",
+                                                           "stages.sum.with.factor=10"});
+  // Where a row stands does not change what it is.
+  const Plan other = bench.plan(
+      "  vary:\n    factor: {setting: stages.sum.with.factor, values: [10]}\n"
+      "    one: {setting: stages.one.with.value, values: [1]}\n");
+  CHECK(other.rows[0].id == plan.rows[1].id);
+}
+
+TEST_CASE("Ranges, zipped lists, tables and variants", "[study]") {
+  const StudyBench bench;
+  CHECK(labels(bench.plan("  vary: {f: {setting: stages.sum.with.factor, "
+                          "range: {from: 0.1, to: 0.5, step: 0.1}}}\n")) ==
+        std::vector<std::string>{"f 0.1", "f 0.2", "f 0.3", "f 0.4", "f 0.5"});
+  CHECK(labels(bench.plan("  vary: {f: {setting: stages.sum.with.factor, "
+                          "range: {from: 1, to: 100, count: 3, spacing: log}}}\n")) ==
+        std::vector<std::string>{"f 1", "f 10", "f 100"});
+  const Plan zipped = bench.plan(
+      "  vary:\n    case:\n      zip: {stages.one.with.value: [1, 2], stages.two.with.value: [5, 6]}\n"
+      "      labels: [low, high]\n");
+  CHECK(labels(zipped) == std::vector<std::string>{"case low", "case high"});
+  CHECK(zipped.rows[1].overrides == std::vector<std::string>{"stages.one.with.value=2",
+                                                             "stages.two.with.value=6"});
+  bench.scratch.write("cases.csv", "# our cases\nname, a, b\nsmall, 1, 2\nlarge, 10, 20\n");
+  const std::string table =
+      "  vary: {case: {table: cases.csv, columns: {a: stages.one.with.value, b: [stages.two.with.value]}";
+  CHECK(labels(bench.plan(table + "}}\n")) ==
+        std::vector<std::string>{"case small", "case large"});
+  const Plan one = bench.plan(table + ", rows: [large]}}\n");
+  REQUIRE(one.rows.size() == 1);
+  CHECK(one.rows[0].overrides == std::vector<std::string>{"stages.one.with.value=10",
+                                                          "stages.two.with.value=20"});
+  const Plan also = bench.plan(kValues + "  also:\n    plain: {set: {stages.one.with.value: 9}}\n");
+  CHECK(also.rows.size() == 7);
+  CHECK(also.rows[6].label() == "plain");
+  CHECK(also.rows[6].variant == "plain");
+}
+
+TEST_CASE("Sampled rows are the same for a seed", "[study]") {
+  const StudyBench bench;
+  const std::string sample =
+      "  sample:\n    method: sobol\n    count: 8\n    seed: 5\n    inputs:\n"
+      "      f: {setting: stages.sum.with.factor, uniform: {from: 1, to: 2}}\n"
+      "      g: {setting: stages.one.with.value, normal: {mean: 100, deviation: 10, min: 0}}\n"
+      "    correlations: [[f, g, 0.5]]\n";
+  const Plan plan = bench.plan(sample);
+  REQUIRE(plan.rows.size() == 8);
+  CHECK(labels(plan) == labels(bench.plan(sample)));
+  std::set<std::string> all;
+  for (const std::string& l : labels(plan)) all.insert(l);
+  CHECK(all.size() == 8);
+  CHECK(plan.inputs[0].sampled);
+  CHECK(plan.inputs[0].unit == "");
+}
+
+TEST_CASE("Repeats disturb what they say, by what they say", "[study]") {
+  CHECK(change_of(0, 1e-6) == 0.0);
+  CHECK(change_of(1, 1e-6) == 1e-6);
+  CHECK(change_of(2, 1e-6) == -1e-6);
+  CHECK(change_of(3, 1e-6) == 2e-6);
+  CHECK(shift_of(0) == std::array{0.0, 0.0});
+  for (std::size_t k = 1; k < 100; ++k)
+    for (const double s : shift_of(k)) CHECK((s > 0.0 && s < 1.0));
+  const StudyBench bench;
+  const Plan plan = bench.plan(
+      "  set: {stages.sum.with.factor: 2}\n"
+      "  vary: {one: {setting: stages.one.with.value, values: [1, 2]}}\n"
+      "  repeat: {count: 3, scale: {stages.sum.with.factor: 1e-6}, rows: {one: [2]}}\n");
+  REQUIRE(plan.rows.size() == 4);
+  CHECK(plan.rows[0].disturbed.empty());
+  CHECK(plan.rows[1].disturbed.empty());
+  CHECK(plan.rows[2].disturbed == Settings{{"stages.sum.with.factor", "2.000002"}});
+  CHECK(plan.rows[3].disturbed == Settings{{"stages.sum.with.factor", "1.999998"}});
+  CHECK(plan.rows[3].label() == "one 2, repeat 2");
+  // The usual disturbances have nothing to act on here.
+  const Plan none = bench.plan("  repeat: 2\n");
+  CHECK_THAT(none.rows[1].problem, Contains("study.yaml:5:") && Contains("neither a motion nor a grid"));
+}
+
+TEST_CASE("A repeat scales the motion and moves the grid of map and flow alike", "[study]") {
+  const Scratch scratch;
+  scratch.write("w.yaml",
+                "schema: 1\nname: w\nstages:\n"
+                "  motion: {uses: motion.prepare, with: {preset: corinth, pga: 0.3 g}}\n"
+                "  map: {uses: transfer.map, with: {cell: \"${stages.flow.with.cell}\"}}\n"
+                "  flow: {uses: mpm.run, with: {cell: 2 m, grid_origin: [10 m, 0 m]}}\n");
+  const Repeat repeat{.place = "s.yaml:1:1", .count = 3, .motion = 1e-6, .grid = true, .scale = {},
+                      .rows = {}};
+  const YamlNode workflow = load_yaml(scratch / "w.yaml");
+  CHECK(perturbations(workflow, repeat, 0).empty());
+  const Settings set = perturbations(workflow, repeat, 1);
+  REQUIRE(set.size() == 3);
+  CHECK(set[0] == std::pair<std::string, std::string>("stages.motion.with.pga", "0.3000003 g"));
+  CHECK(set[1].first == "stages.map.with.grid_origin");
+  CHECK(set[1].second == "[1.50975533249 m, 1.139680582 m]");
+  CHECK(set[2].second == "[11.5097553325 m, 1.139680582 m]");
+}
+
+TEST_CASE("Mistakes in a study file are named with their place", "[study]") {
+  const StudyBench bench;
+  struct Case {
+    std::string text;
+    std::vector<std::string> parts;
+  };
+  const std::vector<Case> cases{
+      {"  vry: {}\n", {"study.yaml:5:", "unknown key 'vry'", "Did you mean 'vary'?"}},
+      {"  vary: {f: {setting: sum.factor, values: [1]}}\n", {"no path of a setting"}},
+      {"  vary: {f: {setting: stages.sum.with.factor}}\n", {"either 'values' or 'range'"}},
+      {"  vary: {f: {setting: stages.sum.with.factor, values: [1, 1]}}\n", {"stands there twice"}},
+      {"  vary: {row: {setting: stages.sum.with.factor, values: [1]}}\n", {"two columns 'row'"}},
+      {"  vary: {f: {setting: stages.sum.with.factor, range: {from: 1, to: 2, step: -1}}}\n",
+       {"does not lead from 1 to 2"}},
+      {"  vary: {f: {zip: {stages.one.with.value: [1, 2], stages.two.with.value: [1]}}}\n",
+       {"zipped item by item"}},
+      {"  sample: {count: 2, inputs: {f: {setting: stages.sum.with.factor}}}\n", {"0 distributions"}},
+      {"  sample: {count: 2, inputs: {f: {setting: stages.sum.with.factor, "
+       "normal: {mean: 1 m, deviation: 1 s}}}}\n",
+       {"another unit"}},
+      {"  sample: {count: 2, method: magic, inputs: {}}\n", {"no way of sampling"}},
+      {"  repeat: {count: 2, motion: 0.1}\n", {"is no disturbance"}},
+      {"  repeat: {count: 2, rows: {nobody: [1]}}\n", {"no variable 'nobody'"}},
+      {"  keep: everything\n", {"nothing to keep"}},
+      {"  disk: 2 m\n", {"no size"}},
+      // Every row is wrong in the same way: told once, at its place in the study.
+      {"  vary: {f: {setting: stages.sum.with.facto, values: [1, 2]}}\n",
+       {"study.yaml:5:", "facto", "factor"}}};
+  for (const Case& c : cases) {
+    CAPTURE(c.text);
+    const std::string message = refusal(bench, c.text);
+    for (const std::string& part : c.parts) CHECK_THAT(message, Contains(part));
+  }
+  bench.scratch.write("w.yaml", std::string(kWorkflow));
+  CHECK_THROWS_WITH(read_study(bench.scratch / "w.yaml"), Contains("is a workflow"));
+}

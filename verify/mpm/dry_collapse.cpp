@@ -1,0 +1,165 @@
+#include "core/elementary.hpp"
+#include "model/front.hpp"
+#include "verify/mpm/dry_columns.hpp"
+#include "verify/mpm/trial.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flowslide::mpm {
+namespace {
+
+constexpr double kDensity = 1600.0, kGrains = 2500.0;  ///< of the bulk and of grains [kg/m3]
+/// Young's modulus over the vertical stress at the foot: a quarter or ten times as much moves the
+/// front by 3 %.
+constexpr double kStiffness = 127.0;
+constexpr double kRise = 0.26, kInertial = 0.279;  ///< of mu_i, glass beads: Jop et al. (2006)
+constexpr double kLongest = 12.5, kLook = 0.3;     ///< [sqrt(height / g)]
+constexpr double kQuiet = 1e-4;                    ///< of the largest kinetic energy: at rest
+
+MaterialSpec grains(const DryColumn& c, double height) {
+  std::map<std::string, double> v{
+      {"youngs_modulus", kStiffness * kDensity * kGravity * height},
+      {"poisson_ratio", c.poisson_ratio}};
+  if (c.law == Friction::rate) {
+    v.merge(std::map<std::string, double>{{"mu_static", c.friction},
+                                          {"mu_limit", c.friction + kRise},
+                                          {"inertial_number", kInertial},
+                                          {"grain_size", c.grain},
+                                          {"grain_density", kGrains}});
+    return material("mu_i", v);
+  }
+  const double plane = asin(c.friction), principal = atan2(c.friction, 1.0);
+  v.merge(std::map<std::string, double>{
+      {"cohesion", 0.0},
+      {"friction_angle", c.law == Friction::coulomb_plane ? plane : principal}});
+  return material("mohr_coulomb", v);
+}
+
+template <int Dim>
+ParticleSet lattice(const DryColumn& c, double height, double spacing) {
+  ParticleSet p;
+  p.dim = Dim;
+  const auto count = [&](double side) {
+    return static_cast<int>(std::lround(side / spacing));
+  };
+  const double across = c.shape == Shape::round ? c.length : c.width;
+  const int rows = Dim == 2 ? 1 : count(across);
+  const double k0 = c.poisson_ratio / (1.0 - c.poisson_ratio);
+  for (int k = 0; k < count(height); ++k) {
+    for (int j = 0; j < rows; ++j) {
+      for (int i = 0; i < count(c.length); ++i) {
+        const double x = (i + 0.5) * spacing, y = (j + 0.5) * spacing, z = (k + 0.5) * spacing;
+        if (c.shape == Shape::round && x * x + y * y > c.length * c.length) continue;
+        const std::size_t q = p.size();
+        const double vertical = -kDensity * kGravity * (height - z), side = k0 * vertical;
+        resize(p, q + 1);
+        if constexpr (Dim == 2) {
+          p.position[q] = {x, z, 0.0};
+          p.stress[q] = {side, vertical, side, 0.0, 0.0, 0.0};
+        } else {
+          p.position[q] = {x, y, z};
+          p.stress[q] = {side, side, vertical, 0.0, 0.0, 0.0};
+        }
+        p.volume[q] = pow(spacing, Dim);
+        p.mass[q] = kDensity * p.volume[q];
+        p.material[q] = 0;
+        p.id[q] = static_cast<std::int64_t>(q) + 1;
+      }
+    }
+  }
+  return p;
+}
+
+template <int Dim>
+double kinetic(const Points<Dim>& p) {
+  double sum = 0.0;
+  for (std::size_t q = 0; q < p.size(); ++q)
+    for (int d = 0; d < Dim; ++d) sum += p.mass[q] * p.v[d][q] * p.v[d][q];
+  return sum;
+}
+
+/// Where, seen from the front, strips of a twentieth of `scale` hold a layer of `thickness`, with a
+/// straight line between their middles. `places` are distances from the wall or axis.
+double edge(const std::vector<Place>& places, const DryColumn& c, double scale, double thickness) {
+  const double strip = 0.05 * scale;
+  std::vector<double> layer(2000, 0.0);
+  for (const Place& p : places) {
+    const auto k = static_cast<std::size_t>(p.at / strip);
+    if (k >= layer.size()) continue;
+    const double ring = 0.25 * kPi * strip * strip * (2.0 * static_cast<double>(k) + 1.0);
+    const double area = c.shape == Shape::round     ? ring
+                        : c.shape == Shape::channel ? strip * c.width
+                                                    : strip;
+    layer[k] += p.mass / (kDensity * area);
+  }
+  std::size_t last = layer.size() - 2;
+  while (last > 0 && layer[last] < thickness) --last;
+  const double over = layer[last] - thickness, drop = layer[last] - layer[last + 1];
+  return strip * (static_cast<double>(last) + 0.5 + (drop > 0.0 ? over / drop : 0.0));
+}
+
+template <int Dim>
+Deposit measure(const Points<Dim>& p, const DryColumn& c, double height, double cell) {
+  std::vector<Place> places;
+  double top = 0.0;
+  for (std::size_t q = 0; q < p.size(); ++q) {
+    const double at = c.shape == Shape::round
+                          ? std::sqrt(p.x[0][q] * p.x[0][q] + p.x[1][q] * p.x[1][q])
+                          : p.x[0][q];
+    places.push_back({at, p.mass[q]});
+    if (at < cell) top = std::max(top, p.x[Dim - 1][q] + 0.25 * cell);
+  }
+  const double end = edge(places, c, std::min(height, c.length), c.grain);
+  return {fronts(places).q995 / c.length - 1.0, end / c.length - 1.0, top / c.length};
+}
+
+template <int Dim>
+Deposit run(DryColumn c, int cells) {
+  const double height = c.aspect * c.length, cell = std::min(height, c.length) / cells;
+  if (c.shape == Shape::channel) c.width = 0.5 * cell * std::round(c.width / (0.5 * cell));
+  ParticleSet p = lattice<Dim>(c, height, 0.5 * cell);
+  p.materials = {grains(c, height)};
+  FlowConfig config = free_space(cell);
+  config.transfer = c.transfer;
+  config.gravity = kGravity;
+  config.ground.surface = {{0.0, 0.0}};
+  config.ground.friction = c.friction;
+  config.left_roller = 0.0;
+  if (c.shape == Shape::channel) config.side_rollers = {{0.0, c.width}};
+  if (c.shape == Shape::round) config.side_rollers = {{0.0, 50.0 * c.length}};
+  Simulation<Dim> s = make_simulation<Dim>(p, config);
+  if (c.shape == Shape::channel) s.rollers.side_friction = c.wall_friction;
+  StepScratch<Dim> scratch(1);
+  prepare(s, scratch, true);
+  const double unit = std::sqrt(height / kGravity);
+  double peak = 0.0;
+  for (double t = kLook; t <= kLongest; t += kLook) {
+    while (s.time < t * unit) advance(s, scratch);
+    const double now = kinetic(s.points);
+    peak = std::max(peak, now);
+    if (now < kQuiet * peak) break;
+  }
+  return measure(s.points, c, height, cell);
+}
+
+}  // namespace
+
+DryColumn sand(double aspect) {
+  return {.aspect = aspect, .friction = tan(30.0 * kPi / 180.0), .grain = 1e-3};
+}
+
+DryColumn beads(double aspect) {
+  return {.shape = Shape::channel,
+          .aspect = aspect,
+          .width = 0.045,
+          .friction = tan(22.0 * kPi / 180.0),
+          .wall_friction = tan(24.8 * kPi / 180.0),
+          .grain = 1.15e-3};
+}
+
+Deposit collapse(const DryColumn& column, int cells) {
+  return column.shape == Shape::plane ? run<2>(column, cells) : run<3>(column, cells);
+}
+
+}  // namespace flowslide::mpm

@@ -1,0 +1,100 @@
+#include "core/elementary.hpp"
+#include "verify/mpm/dry_columns.hpp"
+#include "verify/mpm/list.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+/// Dry columns of grains in the plane, in a narrow channel and round, against the fronts and
+/// heights that experiments left: docs/theory/verification-mpm.md, section Dry columns.
+namespace flowslide::mpm {
+namespace {
+
+constexpr double kShare = 0.1;  ///< of the experiment, that a front or height may be off
+
+/// Plane experiments, all over the first length: fronts of Lube et al. (2005) and Lajeunesse et al.
+/// (2005), which agree; Lube's for a <= 1.8 and >= 2.8, a straight line between.
+double plane_front(double a) {
+  const double tall = 1.9 * pow(std::max(a, 2.8), 2.0 / 3.0), low = 1.2 * std::min(a, 1.8);
+  if (a <= 1.8) return low;
+  return a >= 2.8 ? tall : low + (tall - low) * (a - 1.8);
+}
+
+/// Height at the wall of Lajeunesse et al. (2005), over the first length.
+double plane_height(double a) { return a <= 0.7 ? a : pow(a, 1.0 / 3.0); }
+
+/// Front of round columns, Lube et al. (2004), over the first radius.
+double round_front(double a) { return a < 1.7 ? 1.24 * a : 1.6 * std::sqrt(a); }
+
+void compare(CheckList& checks, const std::string& name, const Deposit& d, double front,
+             double height) {
+  checks.near(name + "_front", d.front, front, kShare * front);
+  if (is_set(height)) checks.near(name + "_height", d.height, height, kShare * height);
+}
+
+constexpr double kAspects[] = {0.5, 1.0, 2.0, 5.0};
+
+}  // namespace
+
+std::vector<Check> verify_columns_short(std::string_view name) {
+  CheckList checks(name);
+  const Deposit coarse = collapse(sand(1.0), 16), fine = collapse(sand(1.0), 32);
+  compare(checks, "a1", fine, plane_front(1.0), plane_height(1.0));
+  checks.error("a1_halving", fine.front / coarse.front - 1.0, 0.08);
+  DryColumn principal = sand(1.0);
+  principal.law = Friction::coulomb_principal;
+  checks.at_least("control_a1_coulomb", collapse(principal, 16).front, 1.2 * plane_front(1.0));
+  // Poisson's ratio of 0.45: soil with friction does not take part in averages over spans.
+  DryColumn stiff = sand(1.0);
+  stiff.poisson_ratio = 0.45;
+  checks.near("a1_poisson_0.45_height", collapse(stiff, 16).height, coarse.height,
+              0.05 * coarse.height);
+  return checks.take();
+}
+
+std::vector<Check> verify_columns_plane(std::string_view name) {
+  CheckList checks(name);
+  for (const double a : kAspects) {
+    const std::string at = fmt::format("a{:g}", a);
+    const Deposit coarse = collapse(sand(a), 16), fine = collapse(sand(a), 32);
+    compare(checks, at, fine, plane_front(a), plane_height(a));
+    checks.near(at + "_edge", fine.edge, plane_front(a), kShare * plane_front(a));
+    checks.error(at + "_front_halving", fine.front / coarse.front - 1.0, 0.05);
+    checks.error(at + "_height_halving", fine.height / coarse.height - 1.0, 0.05);
+    DryColumn control = sand(a);
+    control.law = Friction::coulomb_plane;
+    checks.near(at + "_coulomb_plane_front", collapse(control, 16).front, plane_front(a),
+                kShare * plane_front(a));
+    control.law = Friction::coulomb_principal;
+    checks.at_least("control_" + at + "_coulomb", collapse(control, 16).front,
+                    (1.0 + kShare) * plane_front(a));
+  }
+  return checks.take();
+}
+
+std::vector<Check> verify_columns_round(std::string_view name) {
+  CheckList checks(name);
+  for (const double a : {1.0, 2.0}) {
+    DryColumn column = sand(a);
+    column.shape = Shape::round;
+    const Deposit d = collapse(column, 12);
+    const std::string at = fmt::format("a{:g}", a);
+    compare(checks, at, d, round_front(a), kUnset);
+    checks.near(at + "_edge", d.edge, round_front(a), kShare * round_front(a));
+  }
+  return checks.take();
+}
+
+std::vector<Check> verify_columns_channel(std::string_view name) {
+  CheckList checks(name);
+  for (const double a : {0.5, 1.0, 2.0}) {
+    const std::string at = fmt::format("a{:g}", a);
+    compare(checks, at, collapse(beads(a), 12), 1.2 * a, plane_height(a));
+  }
+  DryColumn smooth = beads(1.0);
+  smooth.wall_friction = 0.0;
+  checks.at_least("control_a1_smooth_walls", collapse(smooth, 12).front, 1.2 * 1.2);
+  return checks.take();
+}
+
+}  // namespace flowslide::mpm
