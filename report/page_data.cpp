@@ -1,5 +1,6 @@
 #include "report/page_data.hpp"
 
+#include "core/elementary.hpp"
 #include "motion/spectrum.hpp"
 #include "report/page_points.hpp"
 #include "report/section_lines.hpp"
@@ -55,13 +56,13 @@ Json add_zone(PageArrays& arrays, const ZoneHistory& h) {
 
 void add_motion(PageArrays& arrays, const GroundMotion& motion) {
   arrays.add("motion.a", motion.acceleration);
-  std::vector<double> periods;
-  for (int k = 0; k <= 90; ++k) periods.push_back(0.02 * std::pow(10.0, k / 36.0));
-  arrays.add("spectrum.logT", [&] {
-    std::vector<double> logs;
-    for (const double t : periods) logs.push_back(std::log10(t));
-    return logs;
-  }());
+  // 0.02 to 6.3 s, evenly on a logarithmic axis
+  std::vector<double> logs, periods;
+  for (int k = 0; k <= 90; ++k) {
+    logs.push_back(k / 36.0 - 1.7);
+    periods.push_back(pow(10.0, logs.back()));
+  }
+  arrays.add("spectrum.logT", logs);
   arrays.add("spectrum.psa", pseudo_acceleration(motion, periods));
 }
 
@@ -112,7 +113,7 @@ Json add_crest(PageArrays& arrays, const FemHistory& history) {
 }
 
 /// Largest shear strain in the plane, engineering.
-double shear_strain(const StrainIncrement<2>& e) { return std::hypot(e[0] - e[1], e[3]); }
+double shear_strain(const StrainIncrement<2>& e) { return hypot(e[0] - e[1], e[3]); }
 
 bool add_section(PageArrays& arrays, const FemHistory& history, const LiquefactionZone& zone) {
   const QuadMesh& mesh = history.mesh();
@@ -176,8 +177,9 @@ PageData page_data(const ReportInputs& in, const ReportConfig& config, const Rep
   j["materials"] = Json::array();
   const ParticleSet& p = in.flow.initial();
   for (const MaterialSpec& m : p.materials)
-    j["materials"].push_back(
-        {{"name", m.name}, {"counts", m.counts_for_runout}, {"liquefied", m.liquefied}});
+    j["materials"].push_back({{"name", m.name},
+                              {"counts", m.counts_for_runout},
+                              {"liquefied", m.liquefied}});
   j["soils"] = Json::array();
   for (const auto& [tag, name] : soil_names(in.stages))
     j["soils"].push_back({{"tag", tag}, {"name", name}});

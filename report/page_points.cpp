@@ -1,6 +1,7 @@
 #include "report/page_points.hpp"
 
 #include "core/check.hpp"
+#include "core/elementary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -60,7 +61,7 @@ void append_frame(Series& s, const MpmFrame& frame, const MpmFrame& first,
   for (const std::size_t i : points) {
     s.x.push_back(frame.position[i][0]);
     s.y.push_back(frame.position[i][1]);
-    s.speed.push_back(std::sqrt(std::hypot(frame.velocity[i][0], frame.velocity[i][1])));
+    s.speed.push_back(std::sqrt(hypot(frame.velocity[i][0], frame.velocity[i][1])));
     s.strength.push_back(first.strength[i] > 0.0 ? frame.strength[i] / first.strength[i] : kUnset);
   }
 }

@@ -7,6 +7,7 @@
 #include "workflows/stages/stage_list.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <ctime>
 
@@ -23,15 +24,6 @@ std::string date_of_today() {
   return fmt::format("{:04}-{:02}-{:02}", day.tm_year + 1900, day.tm_mon + 1, day.tm_mday);
 }
 
-/// Motion of the first stage before the report that has one, if it was kept.
-std::optional<GroundMotion> motion_of(const std::vector<EarlierStage>& stages) {
-  for (const EarlierStage& stage : stages)
-    if (const auto out = stage.outputs.find("motion");
-        out != stage.outputs.end() && std::filesystem::exists(out->second.path))
-      return read_motion_file(out->second.path);
-  return std::nullopt;
-}
-
 std::vector<Headline> headlines(const ReportFacts& f) {
   Headline runout{"runout_m", "runout", "m"};
   // How far the front stopped before the toe says whether the toe is the right one.
@@ -45,6 +37,15 @@ std::vector<Headline> headlines(const ReportFacts& f) {
   all.push_back({"mass_error", "mass error"});
   all.push_back({"energy_error", "energy error"});
   return all;
+}
+
+/// Motion of the first stage before the report that has one, if it was kept.
+std::optional<GroundMotion> motion_of(const std::vector<EarlierStage>& stages) {
+  for (const EarlierStage& stage : stages)
+    if (const auto out = stage.outputs.find("motion");
+        out != stage.outputs.end() && std::filesystem::exists(out->second.path))
+      return read_motion_file(out->second.path);
+  return std::nullopt;
 }
 
 struct ReportStage {
@@ -86,9 +87,9 @@ struct ReportStage {
           "workflow, and `flowslide convert` mpm.h5 for ParaView, docs/guide/valley.md");
     for (const auto& [name, region] : config.regions)
       if (region.outline.size() < 3)
-        found.errors.push_back(
-            fmt::format("regions.{}: {} corners (a region needs three or more) give its outline",
-                        name, region.outline.size()));
+        found.errors.push_back(fmt::format(
+            "regions.{}: {} corners (a region needs three or more) give its outline", name,
+            region.outline.size()));
     if (config.toe && p.flow && p.map && p.section && !p.materials.empty())
       check_toe(*config.toe, *p.flow, soil_of(*p.section, *p.map, p.materials), found);
     return p;
