@@ -39,10 +39,11 @@ std::vector<Headline> headlines(const ReportFacts& f) {
   return all;
 }
 
-/// Motion of the first stage before the report that has one.
+/// Motion of the first stage before the report that has one, if it was kept.
 std::optional<GroundMotion> motion_of(const std::vector<EarlierStage>& stages) {
   for (const EarlierStage& stage : stages)
-    if (const auto out = stage.outputs.find("motion"); out != stage.outputs.end())
+    if (const auto out = stage.outputs.find("motion");
+        out != stage.outputs.end() && std::filesystem::exists(out->second.path))
       return read_motion_file(out->second.path);
   return std::nullopt;
 }
