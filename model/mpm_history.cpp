@@ -222,15 +222,21 @@ MpmHistory& MpmHistory::operator=(MpmHistory&&) noexcept = default;
 const ParticleSet& MpmHistory::initial() const { return impl_->initial; }
 const RestRule& MpmHistory::rest() const { return impl_->rest; }
 std::size_t MpmHistory::num_frames() const { return impl_->times.size(); }
+const std::vector<double>& MpmHistory::times() const { return impl_->times; }
 const std::vector<MpmSample>& MpmHistory::samples() const { return impl_->samples; }
 
-MpmFrame MpmHistory::frame(std::size_t index) const {
+MpmFrame MpmHistory::frame(std::size_t index) const { return read(index, false); }
+MpmFrame MpmHistory::motion(std::size_t index) const { return read(index, true); }
+
+MpmFrame MpmHistory::read(std::size_t index, bool motion_only) const {
   validate(index < num_frames(), "'{}' has no frame {} (it has {})", impl_->in.path().string(),
            index, num_frames());
   MpmFrame frame;
   frame.time = impl_->times[index];
-  visit_arrays(frame, [this, index](const char* name, const FieldLabel& label, auto& array) {
+  visit_arrays(frame, [&](const char* name, const FieldLabel& label, auto& array) {
     using T = typename std::decay_t<decltype(array)>::value_type;
+    const std::string_view field = name;
+    if (motion_only && field != "position" && field != "velocity" && field != "strength") return;
     array = impl_->in.read_row<T>(std::string("frames/") + name, index, impl_->initial.size(),
                                   label.nan);
   });

@@ -128,10 +128,14 @@ class MpmHistory {
   /// What the run ended by, if it did not end by its time.
   [[nodiscard]] const RestRule& rest() const;
   [[nodiscard]] std::size_t num_frames() const;
+  [[nodiscard]] const std::vector<double>& times() const;  ///< of the frames [s]
   [[nodiscard]] MpmFrame frame(std::size_t index) const;
+  /// A frame with time, position, velocity and strength only: half of what there is to read.
+  [[nodiscard]] MpmFrame motion(std::size_t index) const;
   [[nodiscard]] const std::vector<MpmSample>& samples() const;
 
  private:
+  [[nodiscard]] MpmFrame read(std::size_t index, bool motion_only) const;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

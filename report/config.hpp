@@ -27,6 +27,9 @@ struct ReportConfig {
   double mass_warning = 1e-9;           ///< largest silent relative error of mass [-]
   std::map<std::string, ReportRegion> regions;
   bool figures = true;
+  bool page = true;
+  int page_points = 40000;
+  int page_frames = 48;
   bool paraview = true;
   std::optional<std::string> python;  ///< interpreter of the figures; found by itself if empty
 };
@@ -74,6 +77,12 @@ struct Schema<ReportConfig> {
     v.moved("liquefied", "(the points know which of them had liquefied) remove it");
     v.table("regions", c.regions, "parts of the undeformed section to report by name");
     v.flag("figures", c.figures, "draw the figures (needs python3 with matplotlib)");
+    v.flag("page", c.page, "write report.html, the interactive page of the run");
+    v.integer("page_points", c.page_points, {.min = 100.0, .max = 1e6},
+              "most points of its player; of more, an even choice is shown");
+    v.integer("page_frames", c.page_frames, {.min = 2.0, .max = 1000.0},
+              "most instants of its player; of more, those are chosen that let the fastest point "
+              "come equally far between two");
     v.flag("paraview", c.paraview, "write flow.pvd and zone.pvd for ParaView");
     v.text("python", c.python,
            "interpreter that draws the figures, to be allowed with --allow-python; left out: the "

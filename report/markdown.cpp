@@ -2,6 +2,7 @@
 
 #include "report/audit_table.hpp"
 #include "report/markdown_outcome.hpp"
+#include "report/told_run.hpp"
 
 #include <algorithm>
 
@@ -156,25 +157,48 @@ std::string definitions(const ReportConfig& c, const RestRule& rest) {
 
 }  // namespace
 
-std::string report_markdown(const ReportInputs& in, const ReportConfig& c, const ReportFacts& f,
-                            const DrawnFigures& drawn) {
-  std::string out = fmt::format("# {}\n\n", cell(c.title)) + summary_markdown(f, c);
+std::string report_summary(const ReportFacts& facts, const ReportConfig& config) {
+  return summary_markdown(facts, config);
+}
+
+std::vector<std::string> all_warnings(const ReportInputs& in, const ReportFacts& f) {
   std::vector<std::string> warnings = in.warnings;
   warnings.insert(warnings.end(), f.warnings.begin(), f.warnings.end());
+  return warnings;
+}
+
+std::vector<ReportSection> report_sections(const ReportInputs& in, const ReportConfig& c,
+                                           const ReportFacts& f, const FinalState& end) {
+  std::string moved = movements(f.materials, "material", c.moved);
+  if (!f.regions.empty()) moved += movements(f.regions, "region", c.moved);
+  std::vector<ReportSection> sections{
+      {"How sure, why, and what would change it", told_judgement(in, c, f, end)},
+      {"Key numbers", key_numbers(f, c)},
+      {"What became of the section", outcome_markdown(f, c)},
+      {"What leads the flow", foremost_markdown(f)},
+      {"What failed and what stayed", moved},
+      {"Liquefied zone and transfer time", liquefaction(in, f)},
+      {"What was computed", told_inputs(in)},
+      {"Audit of the transfer", audit_tables(in.audit)},
+      {"Definitions", definitions(c, in.flow.rest())}};
+  Rows run = in.provenance;
+  if (!in.date.empty()) run.insert(run.begin(), {"date of this report", in.date});
+  if (!run.empty()) sections.push_back({"What was run", table("item", "value", run)});
+  return sections;
+}
+
+std::string report_markdown(const ReportInputs& in, const ReportConfig& c, const ReportFacts& f,
+                            const FinalState& end, const DrawnFigures& drawn) {
+  std::string out = fmt::format("# {}\n\n", cell(c.title)) + summary_markdown(f, c);
+  const std::vector<std::string> warnings = all_warnings(in, f);
   if (!warnings.empty()) out += "## Read this before using the numbers\n\n" + list(warnings);
-  out += "## Key numbers\n\n" + key_numbers(f, c);
-  out += "## What became of the section\n\n" + outcome_markdown(f, c);
-  out += "## What leads the flow\n\n" + foremost_markdown(f);
-  out += "## What failed and what stayed\n\n" + movements(f.materials, "material", c.moved);
-  if (!f.regions.empty()) out += movements(f.regions, "region", c.moved);
   out += "## Figures\n\n" + figures(drawn);
-  out += "## Liquefied zone and transfer time\n\n" + liquefaction(in, f);
-  out += "## Audit of the transfer\n\n" + audit_tables(in.audit);
-  out += "## Definitions\n\n" + definitions(c, in.flow.rest());
-  if (!in.provenance.empty()) out += "## What was run\n\n" + table("item", "value", in.provenance);
+  for (const ReportSection& section : report_sections(in, c, f, end))
+    out += fmt::format("## {}\n\n{}", section.title, section.text);
   out +=
       "## Files\n\n"
       "`facts.json` holds the key numbers, `runout.csv` and `zone.csv` the time series";
+  if (c.page) out += ", `report.html` this report with charts and a player of the flow";
   if (c.paraview) out += ", `flow.pvd` and `zone.pvd` the fields for ParaView";
   out +=
       ". `data/` holds what the figures are drawn from. To restyle them, change the scripts in "

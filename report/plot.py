@@ -76,8 +76,12 @@ def flow_history(table):
     t = table["time_s"]
     front.plot(t, table["runout_m"], color=BLUE)
     front.set_ylabel("runout (m)")
+    front.set_ylim(0, max(1.0, 1.05 * np.nanmax(table["runout_m"])))
     speed.plot(t, table["max_speed_m_s"], color=ORANGE, lw=0.9, label="fastest point")
-    speed.plot(t, table["front_speed_m_s"], color=BLUE, label="front")
+    # Between two rows the front is the noise of single points.
+    before, after = np.maximum(t - 0.5, t[0]), np.minimum(t + 0.5, t[-1])
+    way = np.interp(after, t, table["front_m"]) - np.interp(before, t, table["front_m"])
+    speed.plot(t, way / (after - before), color=BLUE, label="front, over 1 s")
     speed.set_ylabel("speed (m/s)")
     legend(speed)
     energy.plot(t, table["gravity_work_J_per_m"] / 1e6, color=INK, lw=1.6, label="work of gravity")

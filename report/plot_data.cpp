@@ -4,6 +4,7 @@
 #include "report/npy.hpp"
 #include "report/section_lines.hpp"
 #include "report/tables.hpp"
+#include "report/told_run.hpp"
 
 #include <cmath>
 
@@ -14,15 +15,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The water table is drawn where the head is 0.1 m: a dry region may hold u = 0 exactly.
-constexpr double kWaterLevel = 1.0e3;  // [Pa]
-
 Table final_points(const ParticleSet& p, const MpmFrame& last, const FinalState& end) {
-  Table t{.columns = 8, .values = {}};
+  Table t{.columns = 9, .values = {}};
   for (std::size_t i = 0; i < p.size(); ++i)
     t.add({end.position[i][0], end.position[i][1], end.undeformed[i][0], end.undeformed[i][1],
            end.displacement[i], static_cast<double>(p.material[i]), end.strength_ratio[i],
-           std::sqrt(last.volume[i])});
+           std::sqrt(last.volume[i]), last.strength[i]});
   return t;
 }
 
@@ -46,14 +44,14 @@ Table elements(const QuadMesh& mesh, const LiquefactionZone& zone) {
 
 void write_plot_data(const std::filesystem::path& folder, const FemHistory& history,
                      const LiquefactionZone& zone, const MpmHistory& flow, const FinalState& end,
-                     const ReportFacts& facts, const ReportConfig& config) {
+                     const ReportFacts& facts, const ReportConfig& config,
+                     const std::vector<ToldStage>& stages) {
   const ParticleSet& p = flow.initial();
   const QuadMesh& mesh = history.mesh();
   write_npy(folder / "final.npy", final_points(p, flow.frame(flow.num_frames() - 1), end));
   write_npy(folder / "elements.npy", elements(mesh, zone));
   write_npy(folder / "outline.npy", outline_segments(mesh));
-  write_npy(folder / "water.npy",
-            pressure_contour(mesh, history.gravity().pore_pressure, kWaterLevel));
+  write_npy(folder / "water.npy", water_surface(mesh, history.gravity().pore_pressure));
   Json j;
   j["toe_m"] = facts.toe;
   j["front_m"] = facts.front;
@@ -70,6 +68,13 @@ void write_plot_data(const std::filesystem::path& folder, const FemHistory& hist
   for (const MaterialSpec& m : p.materials)
     j["materials"].push_back(
         {{"name", m.name}, {"counts", m.counts_for_runout}, {"liquefied", m.liquefied}});
+  j["soils"] = Json::array();
+  for (const auto& [tag, name] : soil_names(stages))
+    j["soils"].push_back({{"tag", tag}, {"name", name}});
+  j["ground"] = Json::array();
+  const Table ground = ground_line(stages);
+  for (std::size_t r = 0; r < ground.rows(); ++r)
+    j["ground"].push_back({ground.values[2 * r], ground.values[2 * r + 1]});
   write_file(folder / "plot.json", j.dump(1) + "\n");
 }
 

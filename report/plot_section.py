@@ -11,6 +11,7 @@ from plot_style import INK, RED, SKY, WIDTH
 
 LEFT, RIGHT, TOP, GAP, BOTTOM = 0.55, 0.12, 0.24, 0.26, 0.42  # inches around the panels
 STILL = "0.86"  # what did not move
+GROUND = "#EFEBE3"  # rigid
 SOILS = ["#C9B18B", "#8C6D46", "#B5723A", "#BDBDBD", "#6B6B6B", "#E5D9C5"]
 
 
@@ -19,14 +20,15 @@ class Section:
 
     def __init__(self, data):
         self.info = json.loads((data / "plot.json").read_text())
-        columns = "x y x0 y0 displacement material strength_ratio size".split()
+        columns = "x y x0 y0 displacement material strength_ratio size strength".split()
         self.points = dict(zip(columns, np.load(data / "final.npy").T))
         elements = np.load(data / "elements.npy")
         self.quads = elements[:, :8].reshape(-1, 4, 2)
         names = "r_u liquefied strength material sigma_v0".split()
         self.elements = dict(zip(names, elements[:, 8:].T))
         self.outline = np.load(data / "outline.npy")
-        self.water = np.load(data / "water.npy").reshape(-1, 2, 2)
+        self.water = np.load(data / "water.npy").reshape(-1, 3)
+        self.ground = np.array(self.info["ground"]).reshape(-1, 2)
         material = self.points["material"].astype(int)
         counts = np.array([m["counts"] for m in self.info["materials"]])
         self.liquefied = np.array([m["liquefied"] for m in self.info["materials"]])[material]
@@ -92,6 +94,30 @@ def draw_points(ax, section, chosen, **colour):
                       rasterized=True, **colour)
 
 
+def draw_ground(ax, section):
+    """The rigid ground; it goes on level beyond its ends."""
+    if len(section.ground) == 0:
+        return
+    (left, right), low = ax.get_xlim(), ax.get_ylim()[0]
+    line = np.vstack([[min(left, section.ground[0, 0]), section.ground[0, 1]], section.ground,
+                      [max(right, section.ground[-1, 0]), section.ground[-1, 1]]])
+    ax.fill_between(line[:, 0], line[:, 1], low, color=GROUND, lw=0, zorder=0)
+    ax.plot(*line.T, color="0.45", lw=0.6, zorder=0.5)
+
+
+def draw_water(ax, section):
+    """Surface of the water at rest, and the pond where it stands above or at the ground."""
+    x, water, ground = section.water.T
+    ax.plot(x, water, color=SKY, lw=1.4)
+    pond = water > ground - 0.25
+    ax.fill_between(x, ground, water, where=water > ground, color=SKY, alpha=0.4, lw=0)
+    shown = np.flatnonzero(pond & (x > ax.get_xlim()[0]) & (x < ax.get_xlim()[1]))
+    if len(shown) > 2:
+        k = shown[len(shown) // 2]
+        ax.plot(x[k], water[k], marker=7, color=SKY, markersize=5, clip_on=False)
+        ax.text(x[k], water[k], "    pond", color=INK, fontsize=7, va="bottom")
+
+
 def draw_outline(ax, section, inside=True):
     """Section before the flow; material limits thinner than the surface."""
     for boundary, width in ((1, 0.8), (0, 0.5)):
@@ -155,6 +181,7 @@ def final_displacement(section):
     moved = d > section.info["moved_m"]
     norm = Normalize(0, max(d.max(), section.info["moved_m"]))
     for ax in axes:
+        draw_ground(ax, section)
         draw_points(ax, section, ~moved, color=STILL)
         shown = draw_points(ax, section, moved, c=d[moved], cmap="viridis", norm=norm)
         draw_outline(ax, section, inside=False)
@@ -183,6 +210,7 @@ def final_materials(section):
     rows = -(-len(present) // columns)
     figure, axes = stacked(section.windows, section.ylim, footer=0.18 * rows + 0.05)
     for ax in axes:
+        draw_ground(ax, section)
         draw_points(ax, section, slice(None), color=to_rgba_array(colours)[material])
         draw_outline(ax, section, inside=False)
     handles = [Patch(color=colours[k], label=section.info["materials"][k]["name"])
@@ -197,16 +225,20 @@ def final_strength(section):
     shown = section.liquefied & np.isfinite(ratio)
     if not shown.any():
         return None
+    values, label, note = ratio, "strength / strength at transfer", "grey: not liquefied"
+    norm = Normalize(min(0.9, np.floor(10 * ratio[shown].min()) / 10), 1)
+    if ratio[shown].min() > 0.995:  # a scale from 0.99 to 1 would show one colour, or rounding
+        values, label = section.points["strength"] / 1e3, "strength (kPa)"
+        norm = Normalize(0, values[shown].max())
+        note += "; nothing softened, so the strength itself is shown"
     figure, axes = stacked(section.windows, section.ylim, bar=0.85)
-    low = min(0.95, np.floor(20 * ratio[shown].min()) / 20)
     for ax in axes:
+        draw_ground(ax, section)
         draw_points(ax, section, ~shown, color=STILL)
-        drawn = draw_points(ax, section, shown, c=ratio[shown], cmap="cividis",
-                            norm=Normalize(low, 1))
+        drawn = draw_points(ax, section, shown, c=values[shown], cmap="cividis", norm=norm)
         draw_outline(ax, section, inside=False)
-    colour_bar(figure, drawn, axes, "strength / strength at transfer")
-    axes[-1].text(1, 1.02, "grey: not liquefied", transform=axes[-1].transAxes, ha="right",
-                  fontsize=7)
+    colour_bar(figure, drawn, axes, label)
+    axes[-1].text(1, 1.02, note, transform=axes[-1].transAxes, ha="right", fontsize=7)
     return figure
 
 
@@ -225,11 +257,14 @@ def section_before(section):
         panels.insert(0, ("Pore-pressure ratio at transfer, "
                           f"t = {info['transfer_time_s']:.4g} s", section.dam))
     strengths = np.unique(np.round(e["strength"][e["liquefied"] > 0] / 1e3, 2))
-    figure, axes = stacked(panels, section.ylim, bar=0.85, footer=0.22)
-    soils = np.unique(e["material"], return_inverse=True)[1]
-    greys = ListedColormap(["0.92", "0.84", "0.76", "0.88", "0.80"])
+    tags, soils = np.unique(e["material"], return_inverse=True)
+    names = {s["tag"]: s["name"] for s in info["soils"]}
+    footer = 0.22 + 0.16 * (1 + len(tags) // 4)
+    figure, axes = stacked(panels, section.ylim, bar=0.85, footer=footer)
+    greys = ListedColormap(["0.93", "0.84", "0.75", "0.88", "0.79"])
     bars = []
     for ax in axes:
+        draw_ground(ax, section)
         draw_elements(ax, section, soils % greys.N, cmap=greys, clim=(-0.5, greys.N - 0.5))
         if with_r_u and ax is axes[0]:
             values = np.ma.masked_invalid(e["r_u"])
@@ -246,7 +281,7 @@ def section_before(section):
             drawn = draw_elements(ax, section, values, cmap="cividis", norm=steps)
             bars.append((drawn, ax, "$S_r$ (kPa)", options))
         draw_outline(ax, section)
-        ax.add_collection(LineCollection(joined(section.water), colors=SKY, linewidths=1.4))
+        draw_water(ax, section)
         if info["lower_boundary"]:
             ax.plot(*np.array(info["lower_boundary"]).T, color=RED, lw=1.4)
     for drawn, ax, label, options in bars:
@@ -254,5 +289,7 @@ def section_before(section):
     handles = [Line2D([], [], color=SKY, lw=1.4, label="water table at rest"),
                Line2D([], [], color=RED, lw=1.4, label="lower boundary of the liquefied zone"),
                Line2D([], [], color=INK, lw=0.8, label="section and material limits")]
+    handles += [Patch(color=greys(k % greys.N), label=names.get(int(tag), f"soil {tag:g}"))
+                for k, tag in enumerate(tags)]
     figure.legend(handles=handles, loc="lower center", ncol=3, borderpad=0.1)
     return figure

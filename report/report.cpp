@@ -3,6 +3,7 @@
 #include "core/files.hpp"
 #include "report/figures.hpp"
 #include "report/markdown.hpp"
+#include "report/page.hpp"
 #include "report/paraview.hpp"
 #include "report/plot_data.hpp"
 #include "report/tables.hpp"
@@ -32,7 +33,7 @@ ReportFacts write_report(const ReportInputs& in, const ReportConfig& config,
   make_folder(out / "data");
   write_file(out / "runout.csv", runout_csv(in.flow.samples(), facts.toe));
   write_file(out / "zone.csv", zone_csv(in.zone.history));
-  write_plot_data(out / "data", in.history, in.zone, in.flow, end, facts, config);
+  write_plot_data(out / "data", in.history, in.zone, in.flow, end, facts, config, in.stages);
   DrawnFigures drawn;
   if (config.figures) {
     // Drawing takes seconds on a machine that has nothing else to do.
@@ -44,7 +45,8 @@ ReportFacts write_report(const ReportInputs& in, const ReportConfig& config,
   ReportFacts told = facts;
   told.warnings.insert(told.warnings.begin(), in.warnings.begin(), in.warnings.end());
   write_file(out / "facts.json", to_json(told));
-  write_file(out / "report.md", report_markdown(in, config, facts, drawn));
+  write_file(out / "report.md", report_markdown(in, config, facts, end, drawn));
+  if (config.page) write_file(out / "report.html", report_page(in, config, facts, end));
   return facts;
 }
 

@@ -9,8 +9,10 @@ namespace flowslide {
 /// 1 on the boundary and 0 inside.
 Table outline_segments(const QuadMesh& mesh);
 
-/// Where the pore pressure equals `level` [Pa], by linear interpolation along element edges.
-Table pressure_contour(const QuadMesh& mesh, const std::vector<double>& pore_pressure,
-                       double level);
+/// Surface of water at rest as rows x, y, level of the ground [m], from left to right: where a
+/// column of still water above the highest wet point of a vertical line ends, which is above the
+/// ground where there is a pond. Pore pressures below 1 kPa count as dry. Rows are as dense as the
+/// elements; where nothing is wet, y is unset.
+Table water_surface(const QuadMesh& mesh, const std::vector<double>& pore_pressure);
 
 }  // namespace flowslide

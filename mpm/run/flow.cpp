@@ -58,12 +58,22 @@ void check_step(const mpm::Simulation<Dim>& s, mpm::RunState& run) {
       std::sqrt(s.last.max_speed2), s.dt, first));
 }
 
+/// Brings the next frame forward to now if the fastest point has gone too far since the last one.
+void hurry_frame(mpm::RunState& run, const MpmSample& now, const FlowConfig& config) {
+  const double since = now.time - (run.next_frame - config.frame_interval);
+  if (config.frame_travel && now.max_speed * since >= *config.frame_travel)
+    run.next_frame = now.time;
+}
+
 /// Refuses a run that would not end in any useful time, or fill any disk.
 template <int Dim>
 void check_cost(const mpm::Simulation<Dim>& s, const std::vector<MaterialSpec>& materials,
                 const FlowConfig& config, double dt, int threads) {
   const auto points = static_cast<double>(s.points.size());
-  const double bytes = points * kFrameBytesPerPoint * config.end / config.frame_interval;
+  const double interval = config.frame_travel
+                              ? std::min(config.frame_interval, config.sample_interval)
+                              : config.frame_interval;
+  const double bytes = points * kFrameBytesPerPoint * config.end / interval;
   validate(bytes <= kMostBytes,
            "frame_interval = {:g} s asks for {:.3g} GB of stored states of {} points until {:g} s "
            "(at most {:g} GB are written) raise frame_interval or lower end",
@@ -170,6 +180,7 @@ struct Runout {
     history.append(last);
     ++run.samples;
     pass_output(run.next_sample, s.time, config.sample_interval);
+    hurry_frame(run, last, config);
     run.peak_kinetic = std::max(run.peak_kinetic, last.kinetic);
     forecast.look(s.time, last.kinetic);
     run.recent.push_back({s.time, last.front});

@@ -131,30 +131,13 @@ void Schema<TractionSettings>::describe(FieldVisitor& v, TractionSettings& c) {
              "time over which it rises to its full amount; 0: at once");
 }
 
-void Schema<FlowConfig>::describe(FieldVisitor& v, FlowConfig& c) {
+/// How points and grid exchange what they carry.
+static void describe_scheme(FieldVisitor& v, FlowConfig& c) {
   static constexpr std::array<std::string_view, 4> bases{"linear", "gimp", "quadratic", "cubic"};
   static constexpr std::array<std::string_view, 6> transfers{"apic", "tpic", "aflip",
                                                              "flip", "pic",  "fmpm"};
   static constexpr std::array<std::string_view, 3> updates{"symplectic", "usf", "musl"};
   static constexpr std::array<std::string_view, 2> averages{"auto", "off"};
-  v.quantity("cell", c.cell, Dim::length, {.above = 0.0}, "size of the square grid cells");
-  v.tuple("grid_origin", c.grid_origin, Dim::length, "position of a grid node");
-  v.moved("toe",
-          "(the runout counts from the downstream end of the soil that counts, which transfer.map "
-          "knows; it does not move the flow) remove it; a report that is to count from elsewhere "
-          "has 'uses: report.runout, with: {toe: 75 m}'");
-  v.quantity("end", c.end, Dim::time, {.above = 0.0},
-             "latest end; the run stops earlier when all is at rest");
-  v.group("ground", c.ground, Schema<GroundSettings>::doc);
-  v.group("absorbing", c.absorbing, Schema<AbsorbingSettings>::doc);
-  v.group("outlet", c.outlet, Schema<OutletSettings>::doc);
-  v.list("tractions", c.tractions, Schema<TractionSettings>::doc);
-  v.quantity("left_roller", c.left_roller, Dim::length, {},
-             "x of a vertical frictionless wall upstream");
-  v.quantity("right_roller", c.right_roller, Dim::length, {},
-             "x of a vertical frictionless wall downstream");
-  v.group("extrude", c.extrude, Schema<ExtrudeSettings>::doc);
-  v.group("softening", c.softening, Schema<SofteningSettings>::doc);
   v.choice("basis", c.basis, bases,
            "shape functions: quadratic and cubic B-splines, gimp for points of half a cell, or "
            "linear, whose step is not safe for lone points");
@@ -175,6 +158,28 @@ void Schema<FlowConfig>::describe(FieldVisitor& v, FlowConfig& c) {
   v.choice("volume_average", c.volume_average, averages,
            "F-bar against volumetric locking: auto averages materials with Poisson's ratio of 0.4 "
            "or more and no friction");
+}
+
+void Schema<FlowConfig>::describe(FieldVisitor& v, FlowConfig& c) {
+  v.quantity("cell", c.cell, Dim::length, {.above = 0.0}, "size of the square grid cells");
+  v.tuple("grid_origin", c.grid_origin, Dim::length, "position of a grid node");
+  v.moved("toe",
+          "(the runout counts from the downstream end of the soil that counts, which transfer.map "
+          "knows; it does not move the flow) remove it; a report that is to count from elsewhere "
+          "has 'uses: report.runout, with: {toe: 75 m}'");
+  v.quantity("end", c.end, Dim::time, {.above = 0.0},
+             "latest end; the run stops earlier when all is at rest");
+  v.group("ground", c.ground, Schema<GroundSettings>::doc);
+  v.group("absorbing", c.absorbing, Schema<AbsorbingSettings>::doc);
+  v.group("outlet", c.outlet, Schema<OutletSettings>::doc);
+  v.list("tractions", c.tractions, Schema<TractionSettings>::doc);
+  v.quantity("left_roller", c.left_roller, Dim::length, {},
+             "x of a vertical frictionless wall upstream");
+  v.quantity("right_roller", c.right_roller, Dim::length, {},
+             "x of a vertical frictionless wall downstream");
+  v.group("extrude", c.extrude, Schema<ExtrudeSettings>::doc);
+  v.group("softening", c.softening, Schema<SofteningSettings>::doc);
+  describe_scheme(v, c);
   v.quantity("gravity", c.gravity, Dim::acceleration, {.min = 0.0}, "acceleration of gravity");
   v.quantity("courant", c.courant, Dim::none, {.max = 1.0, .above = 0.0},
              "share of the stable time step");
@@ -188,6 +193,8 @@ void Schema<FlowConfig>::describe(FieldVisitor& v, FlowConfig& c) {
   v.group("rest", c.rest, Schema<RestRule>::doc);
   v.quantity("frame_interval", c.frame_interval, Dim::time, {.above = 0.0},
              "time between stored states");
+  v.quantity("frame_travel", c.frame_travel, Dim::length, {.above = 0.0},
+             "a state is stored earlier where the fastest point may have come this far since one");
   v.quantity("sample_interval", c.sample_interval, Dim::time, {.above = 0.0},
              "time between rows of the time series");
 }

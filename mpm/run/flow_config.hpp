@@ -78,7 +78,8 @@ struct FlowConfig : mpm::StepSettings {
   std::optional<SleepSettings> sleep;
   RestRule rest;
   double frame_interval = 5.0;    ///< [s]
-  double sample_interval = 0.25;  ///< [s]
+  std::optional<double> frame_travel;  ///< [m]
+  double sample_interval = 0.25;       ///< [s]
 };
 
 /// Relations that ranges cannot express. Throws InputError.

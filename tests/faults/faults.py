@@ -51,7 +51,8 @@ class Program:
     """The program, waiting in the shim's server for jobs."""
 
     def __init__(self, program, shim):
-        environment = dict(os.environ, LD_PRELOAD=shim, GOMP_SPINCOUNT="1000", LC_ALL="C")
+        environment = dict(os.environ, LD_PRELOAD=shim, GOMP_SPINCOUNT="1000", LC_ALL="C",
+                           SOURCE_DATE_EPOCH="0")
         self.process = subprocess.Popen([program], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                                         env=environment, text=True)
 

@@ -107,6 +107,13 @@ TEST_CASE("a runout comes back from the file to the bit, in order of id") {
   CHECK(same_bits(found.volume, expected.volume));
   CHECK(same_bits(found.plastic_strain, expected.plastic_strain));
   CHECK(same_bits(found.strength, expected.strength));
+  CHECK(h.times().size() == 3);
+  CHECK(h.times()[2] == expected.time);
+  const MpmFrame motion = h.motion(2);
+  CHECK(same_bits(motion.position, expected.position));
+  CHECK(same_bits(motion.velocity, expected.velocity));
+  CHECK(same_bits(motion.strength, expected.strength));
+  CHECK(motion.stress.empty());
   REQUIRE(h.samples().size() == 15);
   const MpmSample last = sample_at(14);
   CHECK(std::memcmp(&h.samples()[14], &last, sizeof last) == 0);

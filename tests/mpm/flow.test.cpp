@@ -101,6 +101,40 @@ TEST_CASE("A runout ends with its files in place", "[mpm]") {
   CHECK(read_text_file(folder / "mpm.h5") == uninterrupted());  // and the same again
 }
 
+TEST_CASE("States are stored earlier where the flow is fast, and nothing else changes", "[mpm]") {
+  const Scratch folder, other;
+  FlowConfig c = flow_config();
+  c.frame_travel = 0.2;
+  const FlowPaths paths = paths_in(folder.path());
+  std::atomic<bool> stop{true};
+  Progress once;
+  once.stop_requested = &stop;
+  for (int i = 0; i < 3; ++i) REQUIRE_THROWS_AS(run_flow(column(), c, paths, 1, once), Interrupted);
+  run_flow(column(), c, paths, 1, {});
+  run_flow(column(), c, paths_in(other.path()), 1, {});
+  CHECK(read_text_file(paths.history) == read_text_file(other / "mpm.h5"));
+  run_flow(column(), flow_config(), paths_in(other.path()), 1, {});
+  const MpmHistory with(paths.history), without(other / "mpm.h5");
+  REQUIRE(with.samples().size() == without.samples().size());
+  for (std::size_t i = 0; i < with.samples().size(); ++i)
+    REQUIRE(with.samples()[i].front == without.samples()[i].front);
+  const std::vector<double>& times = with.times();
+  CHECK(times.size() > without.times().size() + 3);
+  CHECK(times.back() == without.times().back());
+  // Between two states nothing has come much farther than 0.2 m: as far as in a row of the series
+  // more, for the speed is looked at there.
+  for (std::size_t k = 1; k < times.size(); ++k) {
+    const MpmFrame a = with.frame(k - 1), b = with.frame(k);
+    double far = 0.0, fastest = 0.0;
+    for (std::size_t q = 0; q < a.position.size(); ++q) {
+      far = std::max(far, std::hypot(b.position[q][0] - a.position[q][0],
+                                     b.position[q][1] - a.position[q][1]));
+      fastest = std::max(fastest, std::hypot(b.velocity[q][0], b.velocity[q][1]));
+    }
+    CHECK(far < 0.2 + 1.1 * fastest * c.sample_interval);
+  }
+}
+
 TEST_CASE("A runout stops when it is at rest", "[mpm]") {
   const Scratch folder;
   FlowConfig c = flow_config();

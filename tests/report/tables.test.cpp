@@ -73,7 +73,7 @@ TEST_CASE("A table in NumPy's format has an aligned header and its numbers") {
         std::string(reinterpret_cast<const char*>(table.values.data()), 4 * sizeof(double)));
 }
 
-TEST_CASE("Lines of the section: outline, material limits and water table") {
+TEST_CASE("Lines of the section: outline and material limits") {
   QuadMesh mesh;
   mesh.nodes = {{0, 0}, {1, 0}, {1, 2}, {0, 2}, {2, 0}, {2, 2}, {3, 0}, {3, 2}};
   mesh.node_tags = {1, 2, 3, 4, 5, 6, 7, 8};
@@ -92,14 +92,6 @@ TEST_CASE("Lines of the section: outline, material limits and water table") {
     CHECK(segment[2] == 2.0);
   }
   CHECK(inner == 1);
-  std::vector<double> u;
-  for (const Vec2& n : mesh.nodes) u.push_back(10.0 * (1.5 - n[1]));
-  const Table water = pressure_contour(mesh, u, 0.0);
-  REQUIRE(water.rows() == 3);
-  for (std::size_t r = 0; r < water.rows(); ++r) {
-    CHECK(water.values[4 * r + 1] == Approx(1.5));
-    CHECK(water.values[4 * r + 3] == Approx(1.5));
-  }
 }
 
 TEST_CASE("A table on a full disk is whole or not there") {

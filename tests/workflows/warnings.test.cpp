@@ -74,6 +74,21 @@ struct ReaderStage {
   }
 };
 
+/// Tells the settings and results that it builds on.
+struct ChroniclerStage : ReaderStage {
+  static constexpr std::string_view name = "sample.chronicler";
+  static constexpr bool reads_warnings = false;
+  static constexpr bool reads_earlier = true;
+  static StageResult run(const RunContext& context, const Config&, const Inputs&,
+                         const Outputs& out) {
+    std::ofstream text(out.text.path);
+    for (const EarlierStage& s : context.earlier)
+      text << s.name << ' ' << s.uses << ' ' << s.settings
+           << read_text_file(s.outputs.at("number").path);
+    return {};
+  }
+};
+
 }  // namespace
 
 template <>
@@ -154,6 +169,37 @@ TEST_CASE("A stage that reads warnings runs again when they change") {
   CHECK(read_text_file(bench.scratch / "out/stages/b" / key / "text.txt") ==
         "a: the number is large.");
   CHECK(bench.run("30").why.at("b") == "up to date");
+}
+
+TEST_CASE("A stage that tells of earlier ones knows their settings, and runs again with them") {
+  Bench bench;
+  bench.types.push_back(stage_type<ChroniclerStage>());
+  const auto run = [&](const char* value) {
+    bench.scratch.write(
+        "w.yaml",
+        fmt::format("schema: 1\nname: w\nstages:\n  a: {{uses: sample.odd, with: {{value: {}}}}}\n"
+                    "  other: {{uses: sample.odd}}\n"
+                    "  b: {{uses: sample.chronicler, in: {{number: a.number}}}}\n",
+                    value));
+    std::string why;
+    RunEvents events;
+    events.decided = [&](std::string_view stage, const Decision& d) {
+      if (stage == "b") why = d.why;
+    };
+    run_workflow(load_workflow(bench.scratch / "w.yaml", {}, bench.types),
+                 {.folder = bench.scratch / "out"}, events);
+    return why;
+  };
+  CHECK(run("1") == "no result yet");
+  CHECK(run("1") == "up to date");
+  CHECK(run("2") == "input changed (stages)");  // the number it reads is the same
+  const auto key = bench.result()["stages"]["b"]["key"].get<std::string>().substr(0, 16);
+  CHECK(read_text_file(bench.scratch / "out/stages/b" / key / "text.txt") ==
+        "a sample.odd value = 2\nlimit = 10\n1");  // and nothing of the stage that does not feed it
+  CHECK(
+      plan_workflow(load_workflow(bench.scratch / "w.yaml", {}, bench.types), bench.scratch / "out")
+          .back()
+          .decision.action == Action::reuse);
 }
 
 TEST_CASE("Errors of a look at the files stand at the stage's settings, one to a line") {

@@ -2,6 +2,7 @@
 
 #include "core/check.hpp"
 #include "core/files.hpp"
+#include "workflows/engine/earlier.hpp"
 #include "workflows/engine/headlines.hpp"
 #include "workflows/engine/program_version.hpp"
 #include "workflows/engine/result_folder.hpp"
@@ -126,9 +127,11 @@ StageState run_stage(const WorkflowStage& stage, const Decision& decision,
                      .threads = options.threads,
                      .progress = {},
                      .provenance = {{"program", program_version()}, {"stage key", decision.key}},
-                     .warnings = inputs.warnings};
+                     .warnings = inputs.warnings,
+                     .earlier = inputs.earlier};
   for (const auto& [port, hash] : inputs.hashes)
-    if (port != kWarningsInput) context.provenance.emplace_back("sha256 of " + port, hash);
+    if (port != kWarningsInput && port != kEarlierInput)
+      context.provenance.emplace_back("sha256 of " + port, hash);
   context.progress.stop_requested = options.stop_requested;
   context.progress.report = [&](Share share, std::string_view text) {
     events.progress(stage.name, share, text);

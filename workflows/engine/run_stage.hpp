@@ -15,6 +15,7 @@ struct StageInputs {
   PortPaths paths;
   std::vector<HashedFile> files;  ///< below these paths, as they were when last read
   std::vector<std::string> warnings = {};  ///< of the stages before it
+  std::vector<EarlierStage> earlier = {};
 };
 
 /// A result that lies in the run folder.

@@ -2,6 +2,7 @@
 
 #include "core/check.hpp"
 #include "core/files.hpp"
+#include "workflows/engine/earlier.hpp"
 #include "workflows/engine/result_folder.hpp"
 #include "workflows/engine/run_folder.hpp"
 #include "workflows/engine/run_stage.hpp"
@@ -40,22 +41,27 @@ std::map<std::string, std::string> input_hashes(
   return hashes;
 }
 
-/// What stages before this one warn of.
-std::vector<std::string> warnings_before(const Workflow& workflow, const WorkflowStage& stage,
-                                         const std::vector<std::optional<StageState>>& results) {
+std::vector<const StageRecord*> records_of(const std::vector<std::optional<StageState>>& results) {
   std::vector<const StageRecord*> records;
   for (const auto& result : results) records.push_back(result ? &result->record : nullptr);
-  return earlier_warnings(workflow, stage, records);
+  return records;
+}
+
+/// Warnings and stages before this one, and what they are to its key.
+void add_earlier(StageInputs& inputs, const Workflow& workflow, const WorkflowStage& stage,
+                 const fs::path& folder, const std::vector<std::optional<StageState>>& results) {
+  const std::vector<const StageRecord*> records = records_of(results);
+  inputs.warnings = earlier_warnings(workflow, stage, records);
+  inputs.earlier = earlier_stages(workflow, stage, records, folder);
+  add_to_inputs(inputs.hashes, stage, inputs.warnings);
+  add_to_inputs(inputs.hashes, inputs.earlier);
 }
 
 StageInputs stage_inputs(const Workflow& workflow, const WorkflowStage& stage,
                          const fs::path& folder,
                          const std::vector<std::optional<StageState>>& results) {
-  StageInputs inputs{.hashes = input_hashes(stage, results),
-                     .paths = {},
-                     .files = {},
-                     .warnings = warnings_before(workflow, stage, results)};
-  add_to_inputs(inputs.hashes, stage, inputs.warnings);
+  StageInputs inputs{.hashes = input_hashes(stage, results), .paths = {}, .files = {}};
+  add_earlier(inputs, workflow, stage, folder, results);
   for (const Link& link : stage.inputs) {
     const StageState& from = *results[link.from_stage];
     const fs::path path = result_folder(folder, from.record.stage, from.record.key) /
@@ -157,12 +163,11 @@ std::vector<PlanLine> plan_workflow(const Workflow& workflow, const fs::path& fo
   for (const WorkflowStage& stage : workflow.stages) {
     std::optional<StageRecord> previous;
     if (before && before->stages.contains(stage.name)) previous = before->stages.at(stage.name);
-    auto inputs = input_hashes(stage, results);
-    add_to_inputs(inputs, stage, warnings_before(workflow, stage, results));
-    plan.push_back({stage.name, decide(folder, stage, inputs, previous)});
+    StageInputs inputs{.hashes = input_hashes(stage, results), .paths = {}, .files = {}};
+    add_earlier(inputs, workflow, stage, folder, results);
+    plan.push_back({stage.name, decide(folder, stage, inputs.hashes, previous)});
     Decision& decision = plan.back().decision;
-    decision.warnings =
-        warnings_of(stage, decision.record ? &*decision.record : nullptr);
+    decision.warnings = warnings_of(stage, decision.record ? &*decision.record : nullptr);
     results.emplace_back();
     if (decision.action == Action::reuse)
       results.back() = StageState{*decision.record, decision.files};

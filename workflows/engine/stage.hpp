@@ -19,6 +19,18 @@
 
 namespace flowslide {
 
+/// A stage whose result another one builds on, directly or not.
+struct EarlierStage {
+  struct Output {
+    std::filesystem::path path;
+    std::string sha256;
+  };
+  std::string name, uses;
+  std::string settings;                   ///< canonical text, one "path = value" a line
+  std::string facts;                      ///< JSON object
+  std::map<std::string, Output> outputs;  ///< by port
+};
+
 /// What a stage may use besides its settings and files.
 struct RunContext {
   std::filesystem::path folder;  ///< the stage's own: outputs and checkpoints go here
@@ -28,6 +40,8 @@ struct RunContext {
   std::vector<std::pair<std::string, std::string>> provenance;
   /// For stages with `reads_warnings`: those of all stages before it, as "stage: text".
   std::vector<std::string> warnings = {};
+  /// For stages with `reads_earlier`: all that feed it, in their order.
+  std::vector<EarlierStage> earlier = {};
 };
 
 /// A fact that a run prints when it ends, and what stands before and behind it.
@@ -92,10 +106,11 @@ struct Schema<NoSettings> {
 /// Findings&)`: it opens the files that the settings name, compares the settings with those of
 /// other stages, and returns what later stages may compare theirs with. With `static constexpr bool
 /// reads_warnings = true`, run() gets the warnings of earlier stages, and other warnings make
-/// another result. `static std::vector<std::string> programs(const Config&)` names what the stage
-/// would start at the word of a workflow file; the engine asks for the user's. run() must give the
-/// same bytes for the same settings and inputs, whatever the number of threads. With `checkpoints`,
-/// run() looks into context.folder for its own checkpoint first.
+/// another result; with `static constexpr bool reads_earlier = true`, it gets the settings and
+/// results of all stages that feed it, likewise. `static std::vector<std::string> programs(const
+/// Config&)` names what the stage would start at the word of a workflow file; the engine asks for
+/// the user's. run() must give the same bytes for the same settings and inputs, whatever the number
+/// of threads. With `checkpoints`, run() looks into context.folder for its own checkpoint first.
 template <class S>
 concept Stage = requires(const RunContext& context, const typename S::Config& config,
                          const typename S::Inputs& in, const typename S::Outputs& out) {
@@ -132,6 +147,7 @@ struct StageType {
   int version = 0;
   bool checkpoints = false;
   bool reads_warnings = false;
+  bool reads_earlier = false;
   std::vector<Port> inputs, outputs;
   /// Reads and checks the settings. `with` is absent if the user gave none; `stage` is for
   /// messages.
@@ -147,6 +163,11 @@ inline constexpr bool kReadsWarnings = false;
 template <class S>
 requires requires { S::reads_warnings; }
 inline constexpr bool kReadsWarnings<S> = S::reads_warnings;
+template <class S>
+inline constexpr bool kReadsEarlier = false;
+template <class S>
+requires requires { S::reads_earlier; }
+inline constexpr bool kReadsEarlier<S> = S::reads_earlier;
 
 /// A FileError of canonical_text, "path.of.setting: why", at the place where the file is named.
 FileError locate_file(const YamlNode& settings, std::string_view text);
@@ -178,6 +199,7 @@ StageType stage_type() {
                  .version = S::version,
                  .checkpoints = S::checkpoints,
                  .reads_warnings = detail::kReadsWarnings<S>,
+                 .reads_earlier = detail::kReadsEarlier<S>,
                  .inputs = detail::list_ports<typename S::Inputs>(),
                  .outputs = detail::list_ports<typename S::Outputs>(),
                  .prepare = {},

@@ -1,6 +1,7 @@
 #include "workflows/engine/warnings.hpp"
 
 #include "core/hash.hpp"
+#include "workflows/engine/earlier.hpp"
 
 #include <algorithm>
 
@@ -42,11 +43,7 @@ std::vector<std::string> warnings_of(const WorkflowStage& stage, const StageReco
 
 std::vector<std::string> earlier_warnings(const Workflow& workflow, const WorkflowStage& stage,
                                           const std::vector<const StageRecord*>& results) {
-  std::vector<bool> feeds(results.size(), false);
-  for (const Link& link : stage.inputs) feeds[link.from_stage] = true;
-  for (std::size_t i = results.size(); i-- > 0;)
-    if (feeds[i])
-      for (const Link& link : workflow.stages[i].inputs) feeds[link.from_stage] = true;
+  const std::vector<bool> feeds = feeding_stages(workflow, stage);
   std::vector<std::string> all;
   for (std::size_t i = 0; i < results.size(); ++i)
     if (feeds[i])

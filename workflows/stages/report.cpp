@@ -1,12 +1,28 @@
 #include "report/report.hpp"
 
+#include "model/motion_file.hpp"
 #include "report/figures.hpp"
 #include "workflows/stages/cross_checks.hpp"
 #include "workflows/stages/preview.hpp"
 #include "workflows/stages/stage_list.hpp"
 
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <ctime>
+
 namespace flowslide {
 namespace {
+
+/// UTC; SOURCE_DATE_EPOCH, where it is set, makes reports of the same results the same bytes.
+std::string date_of_today() {
+  std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  if (const char* fixed = std::getenv("SOURCE_DATE_EPOCH"))
+    now = static_cast<std::time_t>(std::strtoll(fixed, nullptr, 10));
+  std::tm day{};
+  gmtime_r(&now, &day);
+  return fmt::format("{:04}-{:02}-{:02}", day.tm_year + 1900, day.tm_mon + 1, day.tm_mday);
+}
 
 std::vector<Headline> headlines(const ReportFacts& f) {
   Headline runout{"runout_m", "runout", "m"};
@@ -23,12 +39,22 @@ std::vector<Headline> headlines(const ReportFacts& f) {
   return all;
 }
 
+/// Motion of the first stage before the report that has one, if it was kept.
+std::optional<GroundMotion> motion_of(const std::vector<EarlierStage>& stages) {
+  for (const EarlierStage& stage : stages)
+    if (const auto out = stage.outputs.find("motion");
+        out != stage.outputs.end() && std::filesystem::exists(out->second.path))
+      return read_motion_file(out->second.path);
+  return std::nullopt;
+}
+
 struct ReportStage {
   static constexpr std::string_view name = "report.runout";
   static constexpr std::string_view doc = "Facts, figures, tables and ParaView files of a runout.";
-  static constexpr int version = 4;
+  static constexpr int version = 5;
   static constexpr bool checkpoints = false;
   static constexpr bool reads_warnings = true;
+  static constexpr bool reads_earlier = true;
   using Config = ReportConfig;
   struct Inputs {
     Artifact<FemHistory> history;
@@ -74,9 +100,18 @@ struct ReportStage {
     const LiquefactionZone zone = read_zone(in.zone.path);
     const ParticleSet particles = read_particles(in.particles.path);
     const MpmHistory flow(in.flow.path);
-    const ReportFacts facts = write_report({history, zone, particles, in.audit.path, flow,
-                                            context.provenance, context.warnings},
-                                           config, out.report.path, context.progress);
+    ReportInputs inputs{.history = history,
+                        .zone = zone,
+                        .particles = particles,
+                        .audit = in.audit.path,
+                        .flow = flow,
+                        .provenance = context.provenance,
+                        .warnings = context.warnings,
+                        .motion = motion_of(context.earlier),
+                        .date = date_of_today()};
+    for (const EarlierStage& s : context.earlier)
+      inputs.stages.push_back({s.name, s.uses, s.settings, s.facts});
+    const ReportFacts facts = write_report(inputs, config, out.report.path, context.progress);
     StageResult result{.facts = to_json(facts),
                        .publish = {"report"},
                        .warnings = facts.warnings,

@@ -1,0 +1,15 @@
+#pragma once
+#include "report/report.hpp"
+
+#include <string>
+
+namespace flowslide {
+
+/// report.html: one file that holds text, numbers, scripts and style, and loads nothing else. Text
+/// is there without scripts; charts and the player need them. Every text of a workflow is escaped,
+/// and the page allows no script but its own, by hash.
+/// Throws FileError, InputError, NumericsError.
+std::string report_page(const ReportInputs& inputs, const ReportConfig& config,
+                        const ReportFacts& facts, const FinalState& end);
+
+}  // namespace flowslide

@@ -1,0 +1,103 @@
+/* Small things that every part uses. */
+
+/** An element with attributes, handlers ("onclick") and children; text never becomes markup. */
+function make(tag, attributes = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes))
+    if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
+    else if (value === true) element.setAttribute(name, "");
+    else if (value !== false && value !== null) element.setAttribute(name, value);
+  element.append(...children);
+  return element;
+}
+
+function draw(tag, attributes = {}, ...children) {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  element.append(...children);
+  return element;
+}
+
+/** Steps of 1, 2 or 5 between which about `count` fit. */
+function ticks(low, high, count) {
+  const raw = (high - low) / Math.max(count, 1);
+  if (!(raw > 0) || !isFinite(raw)) return [low];
+  const power = 10 ** Math.floor(Math.log10(raw));
+  const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= raw * 0.999);
+  const out = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k)
+    out.push(k * step);
+  return out;
+}
+
+/** As many digits as tell neighbouring ticks apart. */
+function tickText(value, step) {
+  if (Math.abs(value) < 1e-12 * Math.abs(step) || value === 0) return "0";
+  const size = Math.max(Math.abs(value), Math.abs(step));
+  if (size >= 1e5 || size < 1e-3)
+    return value.toExponential(1).replace("e+", "e").replace("-", "\u2212");
+  const digits = Math.max(0, Math.min(6, -Math.floor(Math.log10(Math.abs(step)) + 1e-9)));
+  return value.toFixed(digits).replace("-", "\u2212");
+}
+
+function number(value, unit = "") {
+  if (!isFinite(value)) return "\u2013";
+  const size = Math.abs(value);
+  const text =
+    size !== 0 && (size < 1e-3 || size >= 1e6)
+      ? value.toExponential(2)
+      : size >= 100
+        ? value.toFixed(0)
+        : size >= 10
+          ? value.toFixed(1)
+          : value.toFixed(2);
+  return text.replace("-", "\u2212") + (unit ? "\u202f" + unit : "");
+}
+
+/** Index k with x[k] <= value < x[k + 1], kept inside. */
+function indexBefore(x, value) {
+  let low = 0,
+    high = x.length - 1;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (x[middle] <= value) low = middle;
+    else high = middle;
+  }
+  return low;
+}
+
+function interpolated(x, y, at) {
+  if (x.length < 2) return y[0];
+  const k = indexBefore(x, at);
+  const share = Math.min(Math.max((at - x[k]) / (x[k + 1] - x[k] || 1), 0), 1);
+  return y[k] + share * (y[k + 1] - y[k]);
+}
+
+function extent(values) {
+  let low = Infinity,
+    high = -Infinity;
+  for (const v of values) {
+    if (v < low) low = v;
+    if (v > high) high = v;
+  }
+  return low <= high ? [low, high] : [0, 1];
+}
+
+function save(name, blob) {
+  const link = make("a", { href: URL.createObjectURL(blob), download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+
+const cssVariable = (name) =>
+  getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+/** Calls back when an element has got another width, once now. */
+function onWidth(element, redraw) {
+  let width = 0;
+  new ResizeObserver(() => {
+    if (Math.abs(element.clientWidth - width) < 1) return;
+    width = element.clientWidth;
+    redraw();
+  }).observe(element);
+}

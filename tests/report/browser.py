@@ -1,0 +1,129 @@
+"""A headless Chromium over its debugging pipe: no package beside Python is needed."""
+import base64
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import time
+
+
+def find_chromium():
+    names = ("chromium", "chromium-browser", "google-chrome", "chrome")
+    return next((path for path in map(shutil.which, names) if path), None)
+
+
+class Browser:
+    """One page; what its console says of errors and warnings is in `said`."""
+
+    def __init__(self, program, seconds=120.0):
+        self.seconds, self.count, self.said, self.buffer = seconds, 0, [], b""
+        self.profile = tempfile.TemporaryDirectory(prefix="flowslide-browser-")
+        to_browser, self.out = os.pipe()
+        self.into, from_browser = os.pipe()
+
+        def ends():  # the browser reads 3 and writes 4; neither may be overwritten on the way
+            reads, writes = os.dup(to_browser), os.dup(from_browser)
+            os.dup2(reads, 3)
+            os.dup2(writes, 4)
+
+        self.process = subprocess.Popen(
+            [program, "--headless=new", "--no-sandbox", "--disable-gpu", "--remote-debugging-pipe",
+             "--hide-scrollbars", "--no-first-run", "--disable-background-networking",
+             "--disable-dev-shm-usage", f"--user-data-dir={self.profile.name}", "about:blank"],
+            preexec_fn=ends, close_fds=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        os.close(to_browser)
+        os.close(from_browser)
+        target = self.call("Target.createTarget", url="about:blank")["targetId"]
+        attached = self.call("Target.attachToTarget", targetId=target, flatten=True)
+        self.session = attached["sessionId"]
+        for part in ("Page", "Runtime", "Log", "Network"):
+            self.call(f"{part}.enable")
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *error):
+        self.process.terminate()
+        self.process.wait()
+        os.close(self.out)
+        os.close(self.into)
+        self.profile.cleanup()
+
+    def receive(self):
+        while b"\0" not in self.buffer:
+            part = os.read(self.into, 1 << 20)
+            if not part:
+                raise RuntimeError("the browser has ended")
+            self.buffer += part
+        message, self.buffer = self.buffer.split(b"\0", 1)
+        message = json.loads(message)
+        self.note(message)
+        return message
+
+    def note(self, message):
+        method, params = message.get("method"), message.get("params", {})
+        if method == "Runtime.exceptionThrown":
+            detail = params["exceptionDetails"]
+            self.said.append(detail.get("exception", {}).get("description") or detail["text"])
+        elif method == "Runtime.consoleAPICalled" and params["type"] in ("error", "warning"):
+            words = (str(a.get("value", a.get("description"))) for a in params["args"])
+            self.said.append(" ".join(words))
+        elif method == "Log.entryAdded" and params["entry"]["level"] in ("error", "warning"):
+            self.said.append(params["entry"]["text"])
+        elif method == "Network.requestWillBeSent":
+            url = params["request"]["url"]
+            if not url.startswith(("file:", "blob:", "data:", "about:")):
+                self.said.append(f"loads {url}")
+
+    def call(self, method, **params):
+        self.count += 1
+        message = {"id": self.count, "method": method, "params": params}
+        if hasattr(self, "session"):
+            message["sessionId"] = self.session
+        os.write(self.out, json.dumps(message).encode() + b"\0")
+        until = time.monotonic() + self.seconds
+        while time.monotonic() < until:
+            answer = self.receive()
+            if answer.get("id") == message["id"]:
+                if "error" in answer:
+                    raise RuntimeError(f"{method}: {answer['error']}")
+                return answer["result"]
+        raise RuntimeError(f"{method}: no answer in {self.seconds:g} s")
+
+    def run(self, code):
+        """The value of an expression in the page, of a promise when it is kept."""
+        answer = self.call("Runtime.evaluate", expression=code, returnByValue=True,
+                           awaitPromise=True)
+        if "exceptionDetails" in answer:
+            raise RuntimeError(answer["exceptionDetails"]["exception"]["description"])
+        return answer["result"].get("value")
+
+    def wait(self, code):
+        until = time.monotonic() + self.seconds
+        while not (value := self.run(code)):
+            if time.monotonic() > until:
+                raise RuntimeError(f"never came true: {code}")
+            time.sleep(0.1)
+        return value
+
+    def open(self, path, width, height=900, dark=False, phone=False):
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
+                  deviceScaleFactor=2 if phone else 1, mobile=phone)
+        self.call("Emulation.setEmulatedMedia",
+                  features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
+        self.call("Page.navigate", url=pathlib.Path(path).resolve().as_uri())
+        self.wait("document.documentElement?.dataset.ready")
+
+    def key(self, key, code=None, text=None):
+        for kind in ("keyDown", "keyUp"):
+            extra = {"text": text} if text and kind == "keyDown" else {}
+            self.call("Input.dispatchKeyEvent", type=kind, key=key, code=code or key, **extra)
+
+    def point_at(self, x, y, kind="mouseMoved", **extra):
+        self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, **extra)
+
+    def picture(self, path, whole=True):
+        answer = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=whole)
+        pathlib.Path(path).write_bytes(base64.b64decode(answer["data"]))

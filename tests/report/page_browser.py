@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+"""Opens the page of a report in a headless Chromium: page_browser.py TEST_REPORT [PICTURES].
+
+TEST_REPORT is the program test_report, which writes a page of a known run; with PICTURES, a folder,
+what was seen is left there as PNG. Ends with 77, skipped, where there is no Chromium.
+"""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+from browser import Browser, find_chromium
+
+TITLE = 'Dam <of> the "test" & more'
+failures = []
+
+
+def expect(what, true):
+    print(f"{'ok' if true else 'FAILED'}: {what}")
+    if not true:
+        failures.append(what)
+
+
+def check_text(page):
+    expect("the title is text", page.run("document.querySelector('h1').textContent") == TITLE)
+    expect("warnings stand before all else", page.run(
+        "document.querySelector('main').firstElementChild.classList.contains('warnings')"))
+    expect("nothing of the page is wider than it", page.run(
+        "document.documentElement.scrollWidth <= innerWidth"))
+
+
+def check_charts(page):
+    names = page.run("[...document.querySelectorAll('.panel b')].map(e => e.textContent)")
+    for name in ("Runout", "Speed", "Energies", "Depth along the section", "Motion",
+                 "Response spectrum", "Depth of liquefaction", "Crest"):
+        expect(f"chart {name}", name in names)
+    expect("every chart has a curve", page.run(
+        "[...document.querySelectorAll('.panel')].every(p => "
+        "(p.querySelector('path.line')?.getAttribute('d') || '').length > 20)"))
+    # In dam_case the front passes from 40 to 200 m in 30 s; the toe is at x = 75 m.
+    page.run("document.querySelector('.panel svg.chart').focus()")
+    page.key("ArrowRight")
+    tip = page.run("document.querySelector('.panel .tip').textContent")
+    expect(f"a chart tells its values ({tip})", "runout" in tip and "m" in tip)
+    curve = "document.querySelector('.panel path.line').getAttribute('d')"
+    before = page.run(curve)
+    page.key("+")
+    expect("a chart zooms by key", before != page.run(curve))
+    page.key("0")
+    expect("and back", before == page.run(curve))
+
+
+def readout(page):
+    return page.run("document.querySelector('.readout').textContent")
+
+
+def coloured(page, selector):
+    """Share of the pixels of a canvas that are not transparent."""
+    return page.run(
+        "(() => { const c = document.querySelector('%s'), d = c.getContext('2d')"
+        ".getImageData(0, 0, c.width, c.height).data; let n = 0; "
+        "for (let i = 3; i < d.length; i += 4) n += d[i] > 0; return 4 * n / d.length; })()"
+        % selector)
+
+
+def check_player(page):
+    expect("points are drawn", coloured(page, "#player .plot canvas") > 0.15)
+    expect("the section is drawn", coloured(page, "#section .plot canvas") > 0.15)
+    at_end = readout(page)
+    page.run("document.querySelector('#player canvas').focus()")
+    page.key("Home")
+    expect(f"the player goes to the start ({readout(page)})", readout(page).startswith("t = 0.00"))
+    page.key("ArrowRight")
+    expect(f"and on by a stored state ({readout(page)})", readout(page).startswith("t = 20.0"))
+    page.key("Home")
+    page.key(" ", "Space", " ")
+    page.wait("!document.querySelector('.readout').textContent.startsWith('t = 0.00')")
+    page.key("End")
+    runout = page.run("JSON.parse(document.getElementById('run').textContent).runout_m")
+    expect(f"and to the end ({at_end})",
+           readout(page) == at_end and f"runout {runout:.1f}" in at_end)
+    picture = "document.querySelector('#player .plot canvas').toDataURL()"
+    before = page.run(picture)
+    for mode in ("material", "strength", "speed"):
+        page.run(f"[...document.querySelectorAll('#player .choice button')]"
+                 f".find(b => b.textContent === '{mode}').click()")
+        now = page.run(picture)
+        expect(f"colours by {mode}", now != before)
+        before = now
+    box = page.run("(() => { const b = document.querySelector('#player canvas'); "
+                   "b.scrollIntoView(); const r = b.getBoundingClientRect(); "
+                   "return [r.left, r.top, r.width, r.height]; })()")
+    page.point_at(box[0] + 0.3 * box[2], box[1] + 0.72 * box[3])
+    tip = page.run("document.querySelector('#player .tip').textContent")
+    expect(f"a point tells its values ({tip})", "displacement" in tip)
+
+
+def main(program, pictures=None):
+    chromium = find_chromium()
+    if not chromium:
+        print("no Chromium (Debian: chromium): the page of the report is not opened")
+        sys.exit(77)
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder, "report.html")
+        subprocess.run([program, "[.page-child]"], check=True, stdout=subprocess.DEVNULL,
+                       env={**os.environ, "FLOWSLIDE_PAGE": str(path)})
+        with Browser(chromium) as page:
+            for name, width, dark, phone in (("desktop", 1280, False, False),
+                                             ("phone", 390, False, True),
+                                             ("dark", 1280, True, False)):
+                page.open(path, width, dark=dark, phone=phone)
+                expect(f"{name}: numbers are unpacked",
+                       page.run("document.documentElement.dataset.ready") == "yes")
+                check_text(page)
+                if pictures:
+                    page.picture(pathlib.Path(pictures, f"{name}.png"))
+            page.open(path, 1280)
+            check_charts(page)
+            check_player(page)
+            expect("the console is silent, and nothing is loaded: " + "; ".join(page.said),
+                   not page.said)
+            # Control: a script that is not the page's own does not run, and the console tells.
+            page.run("document.body.append(Object.assign(document.createElement('script'), "
+                     "{textContent: 'window.trapped = 1'}))")
+            expect("no other script runs", page.run("typeof trapped") == "undefined")
+            page.run("new Promise(done => setTimeout(done, 200))")
+            expect("and the console tells of it", bool(page.said))
+    sys.exit(f"{len(failures)} failed" if failures else 0)
+
+
+main(*sys.argv[1:])
