@@ -53,7 +53,8 @@ void add_inspect(CLI::App& app, Command& action) {
         fmt::print("{}\n", result.dump(2, ' ', false, Json::error_handler_t::replace));
       else
         print(result, "");
-      return 0;
+      // Problems of a run folder are files that are not what was written.
+      return result["kind"] == "run" && !result["problems"].empty() ? 4 : 0;
     };
   });
 }

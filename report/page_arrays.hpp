@@ -7,7 +7,7 @@
 #include <vector>
 
 /// Numbers of a page, packed for a browser: quantised to 8 or 16 bits, predicted from their
-/// neighbours, deflated, in base64. page/src/arrays.js is the inverse.
+/// neighbours, deflated, in base64. page/arrays.js is the inverse.
 namespace flowslide {
 
 enum class Bits { eight = 8, sixteen = 16 };

@@ -7,7 +7,7 @@
 namespace flowslide {
 
 /// What the scripts of the page draw from: arrays, and a JSON object of single numbers, names and
-/// lines. page/src/run.js reads both.
+/// lines. page/page.js reads both.
 struct PageData {
   PageArrays arrays;
   std::string json;

@@ -19,7 +19,8 @@ class Browser:
 
     def __init__(self, program, seconds=120.0):
         self.seconds, self.count, self.said, self.buffer = seconds, 0, [], b""
-        self.profile = tempfile.TemporaryDirectory(prefix="flowslide-browser-")
+        self.profile = tempfile.TemporaryDirectory(
+            prefix="flowslide-browser-", ignore_cleanup_errors=True)
         to_browser, self.out = os.pipe()
         self.into, from_browser = os.pipe()
 
@@ -45,8 +46,14 @@ class Browser:
         return self
 
     def __exit__(self, *error):
-        self.process.terminate()
-        self.process.wait()
+        """Lets the browser end by itself: its own processes write into the profile until then."""
+        try:
+            del self.session
+            self.call("Browser.close")
+            self.process.wait(self.seconds)
+        except (OSError, RuntimeError, AttributeError, subprocess.TimeoutExpired):
+            self.process.kill()
+            self.process.wait()
         os.close(self.out)
         os.close(self.into)
         self.profile.cleanup()
@@ -112,7 +119,8 @@ class Browser:
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
                   deviceScaleFactor=2 if phone else 1, mobile=phone)
         self.call("Emulation.setEmulatedMedia",
-                  features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
+                  features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"},
+                            {"name": "prefers-reduced-motion", "value": "reduce"}])
         self.call("Page.navigate", url=pathlib.Path(path).resolve().as_uri())
         self.wait("document.documentElement?.dataset.ready")
 

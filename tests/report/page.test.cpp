@@ -37,7 +37,7 @@ std::string from_base64(const std::string& text) {
   return out;
 }
 
-/// What page/src/arrays.js does, written from its description.
+/// What page/arrays.js does, written from its description.
 std::map<std::string, std::vector<double>> unpacked(const json& index, const std::string& text) {
   const std::string deflated = from_base64(text);
   std::size_t total = 0;

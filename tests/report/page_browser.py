@@ -89,7 +89,7 @@ def check_player(page):
         expect(f"colours by {mode}", now != before)
         before = now
     box = page.run("(() => { const b = document.querySelector('#player canvas'); "
-                   "b.scrollIntoView(); const r = b.getBoundingClientRect(); "
+                   "b.scrollIntoView({behavior: 'instant'}); const r = b.getBoundingClientRect(); "
                    "return [r.left, r.top, r.width, r.height]; })()")
     page.point_at(box[0] + 0.3 * box[2], box[1] + 0.72 * box[3])
     tip = page.run("document.querySelector('#player .tip').textContent")

@@ -108,6 +108,21 @@ TEST_CASE("A toe that a report gives is near the end of the section") {
   CHECK(at(119.0).warnings.empty());
 }
 
+TEST_CASE("Loads are held against the weight of the soil") {
+  const double weight = 20e3 * soil_of(dam(), map_config(), kSoils).all.height();
+  const auto with = [](double pressure, double shear) {
+    return ask(
+        [&](FlowConfig& c) {
+          c.tractions = {{.from = {10.0, 30.0}, .to = {50.0, 30.0}, .pressure = pressure, .shear = shear}};
+        },
+        check_tractions);
+  };
+  CHECK(with(19.0 * weight, 0.0).warnings.empty());
+  CHECK_THAT(with(21.0 * weight, 0.0).warnings, Contains("tractions[0]") && Contains("21 times"));
+  CHECK_THAT(with(0.0, -21.0 * weight).warnings, Contains("21 times"));
+  CHECK_THAT(with(1001.0 * weight, 0.0).errors, Contains("check number and unit"));
+}
+
 TEST_CASE("Rollers and outlets stand outside the soil") {
   const auto with = [](auto change) { return ask(change, check_edges); };
   CHECK_THAT(with([](FlowConfig& c) { c.left_roller = 30.0; }).errors, Contains("left_roller"));

@@ -40,7 +40,13 @@ std::vector<Check> verify_columns_short(std::string_view name) {
   CheckList checks(name);
   const Deposit coarse = collapse(sand(1.0), 16), fine = collapse(sand(1.0), 32);
   compare(checks, "a1", fine, plane_front(1.0), plane_height(1.0));
-  checks.error("a1_halving", fine.front / coarse.front - 1.0, 0.08);
+  // The front settles as the grid is refined; with apic, whose viscosity goes with the cell, it does
+  // so more slowly: the control. The target of 5 % for one halving stands in columns_plane.
+  DryColumn crawling = sand(1.0);
+  crawling.transfer = Transfer::apic;
+  const double change = fine.front / coarse.front - 1.0;
+  const double control = collapse(crawling, 32).front / collapse(crawling, 16).front - 1.0;
+  checks.at_most("a1_halving_over_that_of_apic", std::abs(change / control), 0.5);
   DryColumn principal = sand(1.0);
   principal.law = Friction::coulomb_principal;
   checks.at_least("control_a1_coulomb", collapse(principal, 16).front, 1.2 * plane_front(1.0));

@@ -99,6 +99,27 @@ void check_toe(double toe, const FlowConfig& flow, const Soil& soil, Findings& f
          toe, -beyond, e.right);
 }
 
+void check_tractions(const FlowConfig& flow, const Soil& soil, Findings& found) {
+  constexpr double kUnitWeight = 20e3;  // of wet soil [N/m3]
+  constexpr double kOdd = 20.0, kImpossible = 1000.0;
+  if (soil.all.empty()) return;
+  const double weight = kUnitWeight * soil.all.height();
+  for (std::size_t i = 0; i < flow.tractions.size(); ++i) {
+    const double load = std::max(std::abs(flow.tractions[i].pressure),
+                                 std::abs(flow.tractions[i].shear));
+    if (load > kImpossible * weight)
+      refuse(found,
+             "tractions[{}]: {:.3g} Pa, more than {:g} times the weight of {:g} m of soil (nothing "
+             "built or poured weighs that much) check number and unit",
+             i, load, kImpossible, soil.all.height());
+    else if (load > kOdd * weight)
+      warn(found,
+           "tractions[{}]: {:.3g} Pa, {:.0f} times the weight of {:g} m of soil: the load will "
+           "throw the soil about.",
+           i, load, load / weight, soil.all.height());
+  }
+}
+
 void check_edges(const FlowConfig& flow, const Soil& soil, Findings& found) {
   const Extent& e = soil.all;
   if (e.empty()) return;

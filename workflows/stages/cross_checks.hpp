@@ -40,6 +40,8 @@ Soil soil_of(const SectionMesh& section, const MapConfig& config,
 /// Rollers, outlet and ground of a runout against the soil, and a toe that a report gives.
 void check_toe(double toe, const FlowConfig& flow, const Soil& soil, Findings& found);
 void check_edges(const FlowConfig& flow, const Soil& soil, Findings& found);
+/// Loads on the surface against the weight of the soil.
+void check_tractions(const FlowConfig& flow, const Soil& soil, Findings& found);
 void check_ground(const FlowConfig& flow, const Soil& soil, Findings& found);
 /// Opens the terrain file.
 void check_terrain(const FlowConfig& flow, const Soil& soil, Findings& found);

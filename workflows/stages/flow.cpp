@@ -32,6 +32,7 @@ struct FlowStage {
     if (!p.section || p.materials.empty()) return p;
     const Soil soil = soil_of(*p.section, *p.map, p.materials);
     check_edges(config, soil, found);
+    check_tractions(config, soil, found);
     check_ground(config, soil, found);
     check_cells(config, soil, found);
     check_terrain(config, soil, found);
