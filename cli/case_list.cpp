@@ -1,11 +1,11 @@
 #include "cli/case_list.hpp"
 
+#include "bench/chain/dam.hpp"
 #include "bench/fem/cases.hpp"
-#include "verify/fem/cases.hpp"
 #include "bench/mpm/cases.hpp"
+#include "verify/fem/cases.hpp"
 #include "verify/mpm/cases.hpp"
 #include "verify/section/cases.hpp"
-#include "bench/chain/dam.hpp"
 
 namespace flowslide::cli {
 namespace {

@@ -144,10 +144,10 @@ void Display::progress(std::string_view stage, Share share, std::string_view tex
     last_tenth_ = static_cast<int>(fraction * 10.0);
   }
   const double gained = fraction - first_fraction_;
-  const std::string eta =
-      gained > 1e-6 ? (share.at_least ? "<" : "") +
-                          clock_text(seconds_since(start_) * (1.0 - fraction) / gained)
-                    : "?";
+  const std::string eta = gained > 1e-6
+                              ? (share.at_least ? "<" : "") +
+                                    clock_text(seconds_since(start_) * (1.0 - fraction) / gained)
+                              : "?";
   const int percent = static_cast<int>(fraction * 100.0);
   if (!terminal_) {
     const int tenth = static_cast<int>(fraction * 10.0);

@@ -1,7 +1,6 @@
 #include "config/yaml_data.hpp"
-#include "core/unreadable.hpp"
-
 #include "core/files.hpp"
+#include "core/unreadable.hpp"
 
 #include <algorithm>
 #include <array>

@@ -26,9 +26,9 @@ template <class T>
   return select(gap > T(0.0), min(pore_pressure, left), pore_pressure);
 }
 
-/// `modulus`, which contains K, as the time step sees it. While more is open than one step can close, changes of volume
-/// move the gap and nothing else, so K is out of play: debris that has opened to several times its
-/// volume would otherwise set a step for a stiffness it does not have.
+/// `modulus`, which contains K, as the time step sees it. While more is open than one step can
+/// close, changes of volume move the gap and nothing else, so K is out of play: debris that has
+/// opened to several times its volume would otherwise set a step for a stiffness it does not have.
 template <class T>
 [[nodiscard]] T modulus_with_gap(double modulus, double bulk, T gap) noexcept {
   constexpr double kBeyondOneStep = 0.4;  // twice the largest strain_limit that a run accepts

@@ -24,8 +24,8 @@ struct LawList {
   /// The laws of this list for which `Is` holds, in their order.
   template <template <class> class Is>
   using Where = decltype(std::tuple_cat(
-      std::declval<std::conditional_t<Is<M>::value, std::tuple<std::type_identity<M>>,
-                                      std::tuple<>>>()...));
+      std::declval<
+          std::conditional_t<Is<M>::value, std::tuple<std::type_identity<M>>, std::tuple<>>>()...));
   /// Place of law `L` in the list.
   template <class L>
   static constexpr std::size_t index() {
@@ -71,9 +71,8 @@ struct LawSettings {
 /// Visits the fields of LawSettings inside a larger Schema.
 template <class Laws>
 void describe_laws(FieldVisitor& v, LawSettings<Laws>& m) {
-  Laws::each([&]<class M>() {
-    v.group(M::name, m.template of<M>(), Schema<typename M::Params>::doc);
-  });
+  Laws::each(
+      [&]<class M>() { v.group(M::name, m.template of<M>(), Schema<typename M::Params>::doc); });
 }
 
 /// Names of all laws of a list, separated by commas.

@@ -20,9 +20,9 @@
 /// theory page. Which solvers offer it follows from what it has.
 namespace flowslide {
 
-using AllLaws = LawList<PM4Sand, LinearElastic, NeoHookean, MohrCoulomb, DruckerPrager,
-                        ResidualStrength, ModifiedCamClay, NorSand, MuI, NewtonianFluid, Bingham,
-                        HerschelBulkley>;
+using AllLaws =
+    LawList<PM4Sand, LinearElastic, NeoHookean, MohrCoulomb, DruckerPrager, ResidualStrength,
+            ModifiedCamClay, NorSand, MuI, NewtonianFluid, Bingham, HerschelBulkley>;
 
 /// Laws of the runout: those with an update in the plane and in space.
 template <class M>

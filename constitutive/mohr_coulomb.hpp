@@ -107,7 +107,8 @@ struct MohrCoulomb {
     const MohrCoulombSurface<T> y = surface(c, old);
     T deviatoric = 0.0, opened = 0.0;
     Stress<Dim, T> returned = trial;
-    // Principal axes in 3D cost more than all the rest. What a lane gives may not hang on its company.
+    // Principal axes in 3D cost more than all the rest. What a lane gives may not hang on its
+    // company.
     const auto elastic = surely_elastic(y, trial);
     if (Dim == 2 || !all(elastic)) {
       returned = map_principal(trial, [&](const Sorted3<T>& t) noexcept {

@@ -29,9 +29,10 @@ template <class T>
 
 /// Return to the face or the edges of the cone; `f13` is the trial's violation.
 template <class T>
-[[nodiscard, gnu::always_inline]] inline Principal<T> return_to_cone(
-    double lambda, double two_g, const MohrCoulombSurface<T>& y, const Principal<T>& t,
-    T f13) noexcept {
+[[nodiscard, gnu::always_inline]] inline Principal<T> return_to_cone(double lambda, double two_g,
+                                                                     const MohrCoulombSurface<T>& y,
+                                                                     const Principal<T>& t,
+                                                                     T f13) noexcept {
   // D b of the flow directions of s1-s3; the planes of the edges follow by exchanging components.
   const double common = lambda * (y.m - 1.0);
   const double db_one = common + two_g * y.m;

@@ -110,9 +110,8 @@ struct NorSand {
 
   static double bulk_ratio(double nu) { return 2.0 * (1.0 + nu) / (3.0 * (1.0 - 2.0 * nu)); }
   static double shear_at(const Constants& c, double pressure) noexcept {
-    return c.elastic.shear *
-           pow(std::max(pressure, c.p.minimum_pressure) / c.p.reference_pressure,
-                    c.p.shear_exponent);
+    return c.elastic.shear * pow(std::max(pressure, c.p.minimum_pressure) / c.p.reference_pressure,
+                                 c.p.shear_exponent);
   }
 
   /// M_i at an image pressure [-].

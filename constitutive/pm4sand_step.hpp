@@ -158,8 +158,7 @@ Trial<T> attempt(const SoilOf<T>& c, StateOf<T>& s, const PointOf<T>& at, const 
     // G follows sqrt(p): what an elastic step with the modulus of its start misses
     elastic_error = a * a * abs(elastic.p) * stress_norm(elastic.p, elastic.s) / (2.0 * start.p);
   }
-  Trial<T> r{
-      from, select(from.p > T(0.0) || forced, elastic_error, size), size, start.surfaces.Mb};
+  Trial<T> r{from, select(from.p > T(0.0) || forced, elastic_error, size), size, start.surfaces.Mb};
   if (all(stays)) return r;
 
   const StrainOf<T> rest{(1.0 - a) * step.volumetric, (1.0 - a) * step.deviator};

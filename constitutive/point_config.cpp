@@ -9,9 +9,7 @@ namespace flowslide {
 template <>
 struct Schema<PointMaterial> {
   static constexpr std::string_view doc = "Exactly one law.";
-  static void describe(FieldVisitor& v, PointMaterial& c) {
-    describe_laws(v, c.laws);
-  }
+  static void describe(FieldVisitor& v, PointMaterial& c) { describe_laws(v, c.laws); }
 };
 
 template <>

@@ -87,19 +87,19 @@ Reduced reduced(double x) noexcept {
 
 double sin_near_zero(Two angle) {
   const double r = angle.high, z = r * r, z2 = z * z;
-  const double series = (1.0 / 120 - z * (1.0 / 5040)) +
-                        z2 * ((1.0 / 362880 - z * (1.0 / 39916800)) +
-                              z2 * ((1.0 / 6227020800 - z * (1.0 / 1307674368000)) +
-                                    z2 * (1.0 / 355687428096000)));
+  const double series =
+      (1.0 / 120 - z * (1.0 / 5040)) +
+      z2 * ((1.0 / 362880 - z * (1.0 / 39916800)) +
+            z2 * ((1.0 / 6227020800 - z * (1.0 / 1307674368000)) + z2 * (1.0 / 355687428096000)));
   const double cube = z * r;
   return r - ((z * (0.5 * angle.low - cube * series) - angle.low) + cube * (1.0 / 6));
 }
 double cos_near_zero(Two angle) {
   const double r = angle.high, z = r * r, z2 = z * z;
-  const double series = (1.0 / 24 - z * (1.0 / 720)) +
-                        z2 * ((1.0 / 40320 - z * (1.0 / 3628800)) +
-                              z2 * ((1.0 / 479001600 - z * (1.0 / 87178291200)) +
-                                    z2 * (1.0 / 20922789888000)));
+  const double series =
+      (1.0 / 24 - z * (1.0 / 720)) +
+      z2 * ((1.0 / 40320 - z * (1.0 / 3628800)) +
+            z2 * ((1.0 / 479001600 - z * (1.0 / 87178291200)) + z2 * (1.0 / 20922789888000)));
   const double half = 0.5 * z, w = 1.0 - half;
   return w + (((1.0 - w) - half) + (z2 * series - r * angle.low));
 }

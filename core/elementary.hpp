@@ -15,10 +15,10 @@ namespace flowslide {
 [[nodiscard]] double pow(double x, int n) noexcept;
 
 /// Angles up to 5e8 rad; NaN beyond, where a double no longer says which angle is meant.
-[[nodiscard]] double sin(double x) noexcept;  ///< below 1
-[[nodiscard]] double cos(double x) noexcept;  ///< below 1
-[[nodiscard]] double tan(double x) noexcept;  ///< below 2
-[[nodiscard]] double asin(double x) noexcept;            ///< below 2; NaN beyond -1 and 1
+[[nodiscard]] double sin(double x) noexcept;              ///< below 1
+[[nodiscard]] double cos(double x) noexcept;              ///< below 1
+[[nodiscard]] double tan(double x) noexcept;              ///< below 2
+[[nodiscard]] double asin(double x) noexcept;             ///< below 2; NaN beyond -1 and 1
 [[nodiscard]] double atan2(double y, double x) noexcept;  ///< below 2, of finite arguments
 
 /// sqrt(x^2 + y^2) without overflow on the way, below 2.

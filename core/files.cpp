@@ -54,9 +54,9 @@ std::string target_of(const fs::path& temporary) {
   if (name.size() <= around || !name.starts_with('.') || !name.ends_with(kEnding)) return {};
   const std::size_t dot = name.size() - kEnding.size() - kRandomDigits - 1;
   const auto first = name.begin() + static_cast<std::ptrdiff_t>(dot) + 1;
-  const bool made = name[dot] == '.' && std::all_of(first, first + kRandomDigits, [](unsigned char c) {
-                      return std::isxdigit(c);
-                    });
+  const bool made =
+      name[dot] == '.' &&
+      std::all_of(first, first + kRandomDigits, [](unsigned char c) { return std::isxdigit(c); });
   return made ? name.substr(1, dot - 1) : std::string();
 }
 
@@ -88,9 +88,9 @@ Descriptor open_regular(const fs::path& path) {
 fs::path temporary_name(const fs::path& path) {
   // A name that is none must not match those of other files, which are no leftovers.
   if (path.filename().empty())
-    throw FileError(fmt::format(
-        "'{}' names no file (it is empty or ends with a slash) give the name of a file",
-        path.string()));
+    throw FileError(
+        fmt::format("'{}' names no file (it is empty or ends with a slash) give the name of a file",
+                    path.string()));
   // Where the folder cannot be listed it may still be written.
   remove_leftovers(folder_of(path), path.filename().string());
   std::uint64_t number = 0;

@@ -28,8 +28,8 @@ double of_machine() {
 }  // namespace
 
 double available_memory() {
-  const double group = number_in("/sys/fs/cgroup/memory.max") -
-                       number_in("/sys/fs/cgroup/memory.current");
+  const double group =
+      number_in("/sys/fs/cgroup/memory.max") - number_in("/sys/fs/cgroup/memory.current");
   const double machine = of_machine();
   return is_set(group) ? std::min(group, machine) : machine;
 }

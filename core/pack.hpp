@@ -54,9 +54,7 @@ struct MaskOf {
   friend MaskOf operator&&(MaskOf a, MaskOf b) { return {a.m & b.m}; }
   friend MaskOf operator||(MaskOf a, MaskOf b) { return {a.m | b.m}; }
   friend MaskOf operator!(MaskOf a) { return {~a.m}; }
-  friend PackOf<N> select(MaskOf c, PackOf<N> a, PackOf<N> b) {
-    return PackOf<N>(c.m ? a.v : b.v);
-  }
+  friend PackOf<N> select(MaskOf c, PackOf<N> a, PackOf<N> b) { return PackOf<N>(c.m ? a.v : b.v); }
 };
 
 /// N doubles. Results do not hang on N: solvers take `Pack`, tests compare widths.

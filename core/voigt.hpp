@@ -1,8 +1,8 @@
 #pragma once
+#include "core/pack.hpp"
+
 #include <array>
 #include <cmath>
-
-#include "core/pack.hpp"
 
 /// Stress and strain in Voigt form; order and signs in core/conventions.hpp.
 /// `Stress` and `StrainIncrement` are different types so that the factor 2 of engineering shear

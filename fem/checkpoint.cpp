@@ -103,13 +103,12 @@ void read_checkpoint(const std::filesystem::path& path, const std::string& finge
 void check_progress(const std::filesystem::path& path, const Solver& s, const RunState& run,
                     double end, double output_interval) {
   const double slack = 1e-6 * output_interval, recorded = static_cast<double>(run.output - 1);
-  const bool in_order =
-      run.output >= 1 && s.state.time >= recorded * output_interval - slack &&
-      s.state.time <= std::min(end, (recorded + 1.0) * output_interval) + slack &&
-      s.state.step > 0 && s.dt > 0.0 && s.dt <= end + output_interval && s.state.last_dt >= 0.0 &&
-      run.since >= 0 && run.since <= kMostSteps && run.implicit.halvings >= 0 &&
-      run.implicit.halvings <= kMostSteps && run.implicit.in_a_row >= 0 &&
-      run.implicit.in_a_row <= kMostSteps;
+  const bool in_order = run.output >= 1 && s.state.time >= recorded * output_interval - slack &&
+                        s.state.time <= std::min(end, (recorded + 1.0) * output_interval) + slack &&
+                        s.state.step > 0 && s.dt > 0.0 && s.dt <= end + output_interval &&
+                        s.state.last_dt >= 0.0 && run.since >= 0 && run.since <= kMostSteps &&
+                        run.implicit.halvings >= 0 && run.implicit.halvings <= kMostSteps &&
+                        run.implicit.in_a_row >= 0 && run.implicit.in_a_row <= kMostSteps;
   if (!in_order) refuse_checkpoint(path, "its times, steps or counts cannot be those of this run");
 }
 

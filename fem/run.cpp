@@ -288,22 +288,21 @@ FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const F
     read_checkpoint(paths.checkpoint, origin, s, run);
     check_progress(paths.checkpoint, s, run, end, config.output_interval);
   }
-  Shaking shaking{
-      .s = s,
-      .run = run,
-      .config = config,
-      .end = end,
-      .take_step = std::move(step),
-      .rule = rule,
-      .checkpoint = paths.checkpoint,
-      .origin = origin,
-      .base = nodes_of(find_set(section, "base")),
-      .frame = rest,
-      .history = ResumableHistoryWriter(
-          paths.history, section.mesh, history_materials(section, config),
-          {"flowslide fem.run",
-           "mean of xx and yy for PM4Sand, elastic plane strain for other laws", notes},
-          rest, static_cast<std::size_t>(run.output - 1))};
+  Shaking shaking{.s = s,
+                  .run = run,
+                  .config = config,
+                  .end = end,
+                  .take_step = std::move(step),
+                  .rule = rule,
+                  .checkpoint = paths.checkpoint,
+                  .origin = origin,
+                  .base = nodes_of(find_set(section, "base")),
+                  .frame = rest,
+                  .history = ResumableHistoryWriter(
+                      paths.history, section.mesh, history_materials(section, config),
+                      {"flowslide fem.run",
+                       "mean of xx and yy for PM4Sand, elastic plane strain for other laws", notes},
+                      rest, static_cast<std::size_t>(run.output - 1))};
   shaking.show_states_before();
   facts.seconds = shaking.seconds_before + run_to_end(shaking, paths.checkpoint, progress);
   facts.stopped = shaking.stopped;

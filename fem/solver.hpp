@@ -61,9 +61,9 @@ struct State {
   std::vector<Stress<2>> stress;                 ///< effective, of each solver element [Pa]
   std::vector<double> hourglass_x, hourglass_y;  ///< hourglass displacements, gravity included [m]
   ShakingLaws::Tuple<LawStates> laws;            ///< of the elements of each law, in their order
-  double last_dt = 0.0;  ///< step before the present one [s]
-  Energy energy;         ///< at the start of the last step
-  Power pending;         ///< work of its second half of the step, counted with the next [J]
+  double last_dt = 0.0;                          ///< step before the present one [s]
+  Energy energy;                                 ///< at the start of the last step
+  Power pending;  ///< work of its second half of the step, counted with the next [J]
   double pending_deformation = 0.0, pending_viscous = 0.0;
 };
 
@@ -79,7 +79,7 @@ struct Solver {
   PressureSystem water;
   ShakingLaws::Tuple<LawConstants> laws;
   Damping damping;
-  std::vector<double> hourglass_shear;  ///< shear modulus of the hourglass stiffness [Pa]
+  std::vector<double> hourglass_shear;            ///< shear modulus of the hourglass stiffness [Pa]
   std::vector<ShearStrength> hourglass_strength;  ///< of each material; what it may carry
   std::vector<double> hourglass_rest;  ///< hourglass stress at rest, which stays admissible [Pa]
 

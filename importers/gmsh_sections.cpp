@@ -198,8 +198,7 @@ void read_elements_4(Lines& in, GmshFile& file, const Entities& entities) {
   const std::vector<double> head = in.numbers(4, "blocks, elements, smallest and largest number");
   for (std::size_t b = 0; b < in.count(head[0], "blocks of elements"); ++b) {
     const std::vector<double> block = in.numbers(4, "dimension, entity, type, elements");
-    const auto group =
-        entities.find({in.tag(block[0], "dimension"), in.whole(block[1], "entity")});
+    const auto group = entities.find({in.tag(block[0], "dimension"), in.whole(block[1], "entity")});
     const int physical = group == entities.end() ? 0 : group->second;
     const int type = in.tag(block[2], "type");
     for (std::size_t i = 0; i < in.count(block[3], "elements"); ++i)

@@ -23,8 +23,7 @@ constexpr const char* kStartAgain =
   throw FileError(fmt::format("'{}' {} ({})", path.string(), problem, std::strerror(reason)));
 }
 
-void write_whole(const std::filesystem::path& path, int file, const void* bytes,
-                 std::size_t size) {
+void write_whole(const std::filesystem::path& path, int file, const void* bytes, std::size_t size) {
   const char* from = static_cast<const char*>(bytes);
   while (size > 0) {
     const ssize_t n = ::write(file, from, size);

@@ -117,7 +117,8 @@ class FieldWriter {
 inline constexpr std::size_t kAnyRows = static_cast<std::size_t>(-1);
 
 /// Throws FileError where the file cannot be read or is damaged, InputError where it is of another
-/// kind, too new or too old, or a dataset is missing, of another shape or type, or holds NaN without leave.
+/// kind, too new or too old, or a dataset is missing, of another shape or type, or holds NaN
+/// without leave.
 class FieldReader {
  public:
   FieldReader(const std::filesystem::path& path, std::string_view kind, int newest_format,

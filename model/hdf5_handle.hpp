@@ -42,8 +42,8 @@ void start_hdf5();
 /// Innermost entry of the HDF5 error stack, or "".
 std::string hdf5_error();
 
-/// Throws FileError if the system has refused HDF5 a read or write since the last start_hdf5(): what
-/// HDF5 then takes for missing may well be there.
+/// Throws FileError if the system has refused HDF5 a read or write since the last start_hdf5():
+/// what HDF5 then takes for missing may well be there.
 void expect_no_system_error(const std::filesystem::path& file);
 
 /// "'file.h5': dataset 'name': <problem> (<HDF5's reason>)"

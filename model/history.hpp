@@ -1,12 +1,12 @@
 #pragma once
+#include "core/voigt.hpp"
+#include "model/history_material.hpp"
+#include "model/mesh.hpp"
+
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
-
-#include "core/voigt.hpp"
-#include "model/history_material.hpp"
-#include "model/mesh.hpp"
 
 /// What a dynamic finite-element run leaves behind, whichever program made it: the one door through
 /// which shaking enters the rest of the program. On disk: one HDF5 file, kind "fem_history".
@@ -14,18 +14,19 @@ namespace flowslide {
 
 /// One recorded instant. Nodal arrays have num_nodes entries, element arrays num_elements.
 struct FemFrame {
-  double time = 0.0;                   ///< [s] from the start of the motion
-  std::vector<Vec2> displacement;      ///< nodes [m], from the reference coordinates
-  std::vector<Vec2> velocity;          ///< nodes [m/s], absolute
-  std::vector<double> pore_pressure;   ///< nodes [Pa], compression positive
-  std::vector<Stress<2>> stress;       ///< element centres, effective [Pa], tension positive
-  std::vector<StrainIncrement<2>> strain;  ///< element centres, from the reference, engineering shear
+  double time = 0.0;                  ///< [s] from the start of the motion
+  std::vector<Vec2> displacement;     ///< nodes [m], from the reference coordinates
+  std::vector<Vec2> velocity;         ///< nodes [m/s], absolute
+  std::vector<double> pore_pressure;  ///< nodes [Pa], compression positive
+  std::vector<Stress<2>> stress;      ///< element centres, effective [Pa], tension positive
+  std::vector<StrainIncrement<2>>
+      strain;  ///< element centres, from the reference, engineering shear
 };
 
 /// Where the data came from, copied into every later file.
 struct HistoryOrigin {
-  std::string program;        ///< "opensees text recorders"
-  std::string sigma_zz_rule;  ///< how the out-of-plane stress was obtained, in words
+  std::string program;             ///< "opensees text recorders"
+  std::string sigma_zz_rule;       ///< how the out-of-plane stress was obtained, in words
   std::vector<std::string> notes;  ///< what the reader dropped or repaired, one line each
 };
 

@@ -8,7 +8,8 @@
 #include <string>
 
 /// What long runs have in common, whatever they solve: progress, checkpoints now and then and when
-/// the run is interrupted, and an end that leaves nothing but the history. docs/adr/0008-checkpoints.md
+/// the run is interrupted, and an end that leaves nothing but the history.
+/// docs/adr/0008-checkpoints.md
 namespace flowslide {
 
 inline constexpr double kReportSeconds = 0.2;  ///< wall time between progress reports
@@ -16,9 +17,9 @@ inline constexpr double kReportSeconds = 0.2;  ///< wall time between progress r
 /// A run that takes steps and records states in a history that lies in parts until it is finished.
 template <class R>
 concept LongRun = requires(R& run, const R& now, double seconds) {
-  { run.step() } -> std::same_as<bool>;       ///< one step; true if it recorded a state
-  { now.ended() } -> std::same_as<bool>;      ///< false before the first step of the run
-  { now.share() } -> std::same_as<Share>;       ///< of the work that is done
+  { run.step() } -> std::same_as<bool>;          ///< one step; true if it recorded a state
+  { now.ended() } -> std::same_as<bool>;         ///< false before the first step of the run
+  { now.share() } -> std::same_as<Share>;        ///< of the work that is done
   { now.text() } -> std::same_as<std::string>;   ///< about its state, one short line
   { now.place() } -> std::same_as<std::string>;  ///< where it is, for "interrupted at ..."
   /// Flushes the history and then writes the checkpoint that counts what is in it; told the wall

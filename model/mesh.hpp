@@ -21,7 +21,8 @@ struct QuadMesh {
 };
 
 /// Corner coordinates of element e at the given nodal positions (size num_nodes) [m].
-std::array<Vec2, 4> corners(const QuadMesh& mesh, const std::vector<Vec2>& positions, std::size_t e);
+std::array<Vec2, 4> corners(const QuadMesh& mesh, const std::vector<Vec2>& positions,
+                            std::size_t e);
 
 /// Signed area of a quadrilateral, positive if counter-clockwise [m2].
 double area(const std::array<Vec2, 4>& quad);

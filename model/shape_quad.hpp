@@ -1,8 +1,8 @@
 #pragma once
+#include "model/mesh.hpp"
+
 #include <array>
 #include <optional>
-
-#include "model/mesh.hpp"
 
 namespace flowslide {
 

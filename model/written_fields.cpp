@@ -59,8 +59,7 @@ std::string WrittenFields::digest_in_file(hid_t dataset, const Field& field) {
   return digest.hex();
 }
 
-void WrittenFields::compare(const std::filesystem::path& path,
-                            const std::filesystem::path& shown) {
+void WrittenFields::compare(const std::filesystem::path& path, const std::filesystem::path& shown) {
   const Hdf5Handle access = file_access();
   Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), &H5Fclose);
   if (!file.valid()) throw_file_error(shown, "", "cannot be read back; is the disk full?");

@@ -58,8 +58,7 @@ void check_corner(const GroundMotion& motion, double corner) {
 
 }  // namespace
 
-GroundMotion filtered(const GroundMotion& motion, const BandPass& band,
-                      const Progress& progress) {
+GroundMotion filtered(const GroundMotion& motion, const BandPass& band, const Progress& progress) {
   constexpr double kLongestPad = 3600.0;  // [s]
   check(motion);
   validate(band.high_pass || band.low_pass, "a filter without corners (high_pass, low_pass)");

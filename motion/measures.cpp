@@ -88,7 +88,7 @@ double cumulative_absolute_velocity(const GroundMotion& motion) {
 
 double mean_period(const GroundMotion& motion) {
   constexpr double kLowest = 0.25, kHighest = 20.0;  // [Hz]
-  constexpr double kSpacing = 0.05;  // [Hz], the coarsest that the definition allows
+  constexpr double kSpacing = 0.05;   // [Hz], the coarsest that the definition allows
   constexpr double kShortest = 1e-6;  // [s], of which a transform of that spacing takes 256 MB
   validate(motion.dt >= kShortest,
            "{}: a time step of {} s (the mean period needs at least {} s; instruments sample at "

@@ -116,10 +116,10 @@ void check_size(const GroundMotion& motion) {
 GroundMotion prepare_motion(const MotionConfig& config, const Progress& progress,
                             std::vector<std::string>* warnings) {
   check(config);
-  GroundMotion motion =
-      config.record   ? read_record(config.record->path, config.format).motion
-      : config.preset ? synthesize(preset_config(*config.preset, *config.pga), progress)
-                      : synthesize(*config.synthetic, progress);
+  GroundMotion motion = config.record ? read_record(config.record->path, config.format).motion
+                        : config.preset
+                            ? synthesize(preset_config(*config.preset, *config.pga), progress)
+                            : synthesize(*config.synthetic, progress);
   check_size(motion);
   if (config.baseline)
     motion = baseline_corrected(motion, config.baseline->degree, config.baseline->fit);

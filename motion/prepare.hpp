@@ -36,8 +36,8 @@ struct MotionConfig {
 /// Exactly one of record, preset and synthetic. Throws InputError.
 void check(const MotionConfig& config);
 
-/// Throws FileError, InputError, NumericsError, Interrupted. What is odd about the result is appended
-/// to `warnings`.
+/// Throws FileError, InputError, NumericsError, Interrupted. What is odd about the result is
+/// appended to `warnings`.
 GroundMotion prepare_motion(const MotionConfig& config, const Progress& progress = {},
                             std::vector<std::string>* warnings = nullptr);
 

@@ -24,7 +24,7 @@ struct RecordFormat {
 
 struct Record {
   GroundMotion motion;
-  std::vector<std::string> notes;  ///< what the reader corrected or left out
+  std::vector<std::string> notes;          ///< what the reader corrected or left out
   std::vector<std::string> warnings = {};  ///< what cannot be right, such as a peak of 200 g
 };
 

@@ -89,8 +89,9 @@ std::string audit_tables(const std::filesystem::path& audit) {
   // Tables are made by recursion, which an audit from elsewhere must not drive too deep.
   constexpr int kDeepest = 32;
   const auto bounded = [&](int depth, Json::parse_event_t, const Json&) {
-    validate(depth <= kDeepest, "{}: is nested more than {} deep (no audit is) run the transfer again",
-             audit.string(), kDeepest);
+    validate(depth <= kDeepest,
+             "{}: is nested more than {} deep (no audit is) run the transfer again", audit.string(),
+             kDeepest);
     return true;
   };
   const Json json = Json::parse(read_file(audit, kLargestAudit), bounded, false);

@@ -38,7 +38,8 @@ Composition composition(const ParticleSet& p, const FinalState& end, double toe)
     const double x = end.position[i][0];
     counted.push_back({x, p.mass[i]});
     up.push_back({end.position[i][1], p.mass[i]});
-    if (p.materials[static_cast<std::size_t>(p.material[i])].liquefied) liquefied.push_back({x, p.mass[i]});
+    if (p.materials[static_cast<std::size_t>(p.material[i])].liquefied)
+      liquefied.push_back({x, p.mass[i]});
     if (is_set(toe) && x > toe) c.mass_past_toe += p.mass[i];
   }
   if (counted.empty()) return c;

@@ -19,12 +19,12 @@ struct FrontShare {
 };
 
 struct Composition {
-  Fronts fronts;                 ///< x, of all that counts [m]
-  double height = kUnset;        ///< y above which 0.5 % of the counted mass lies [m]
+  Fronts fronts;                     ///< x, of all that counts [m]
+  double height = kUnset;            ///< y above which 0.5 % of the counted mass lies [m]
   std::vector<FrontShare> foremost;  ///< of the foremost 1 %, the largest first
-  bool liquefied = false;        ///< whether any material is liquefied soil
-  Fronts liquefied_fronts;       ///< x, of the liquefied soil alone [m]
-  double mass_past_toe = 0.0;    ///< [kg/m]
+  bool liquefied = false;            ///< whether any material is liquefied soil
+  Fronts liquefied_fronts;           ///< x, of the liquefied soil alone [m]
+  double mass_past_toe = 0.0;        ///< [kg/m]
 };
 
 /// @param toe x [m]; unset: no mass past it

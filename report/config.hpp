@@ -16,15 +16,15 @@ struct ReportRegion {
 
 struct ReportConfig {
   std::string title = "Runout of the section";
-  std::optional<double> toe;            ///< x of the toe of the undeformed section [m]
-  double moved = 1.0;                   ///< displacement from which a point counts as failed [m]
-  double stood = 0.1;                   ///< largest displacement of a section that stood [m]
-  double flow_reach = 1.0;              ///< flowed: farthest displacement of the flow / height [-]
-  std::optional<double> pond;           ///< level of the pond, for the freeboard left [m]
-  double mass_quantile = 0.005;         ///< share of the failed mass beyond the robust front [-]
-  double energy_warning = 0.05;         ///< largest silent residual of the energy balance [-]
-  double momentum_warning = 0.05;       ///< largest silent residual of the impulse balance [-]
-  double mass_warning = 1e-9;           ///< largest silent relative error of mass [-]
+  std::optional<double> toe;       ///< x of the toe of the undeformed section [m]
+  double moved = 1.0;              ///< displacement from which a point counts as failed [m]
+  double stood = 0.1;              ///< largest displacement of a section that stood [m]
+  double flow_reach = 1.0;         ///< flowed: farthest displacement of the flow / height [-]
+  std::optional<double> pond;      ///< level of the pond, for the freeboard left [m]
+  double mass_quantile = 0.005;    ///< share of the failed mass beyond the robust front [-]
+  double energy_warning = 0.05;    ///< largest silent residual of the energy balance [-]
+  double momentum_warning = 0.05;  ///< largest silent residual of the impulse balance [-]
+  double mass_warning = 1e-9;      ///< largest silent relative error of mass [-]
   std::map<std::string, ReportRegion> regions;
   bool figures = true;
   bool page = true;
@@ -65,9 +65,10 @@ struct Schema<ReportConfig> {
     v.quantity("mass_quantile", c.mass_quantile, Dim::none, {.above = 0.0, .below = 0.5},
                "share of the failed mass that lies beyond the robust front");
     for (const char* key : {"rest_kinetic", "rest_front", "rest_window"})
-      v.moved(key,
-              "(the rule of rest comes with the runout) remove it, and write 'rest: {kinetic_share: "
-              "0.001, runout_change: 0.2 m, window: 5 s}' in mpm.run");
+      v.moved(
+          key,
+          "(the rule of rest comes with the runout) remove it, and write 'rest: {kinetic_share: "
+          "0.001, runout_change: 0.2 m, window: 5 s}' in mpm.run");
     v.quantity("energy_warning", c.energy_warning, Dim::none, {.above = 0.0},
                "residual of the energy balance from which the report warns");
     v.quantity("momentum_warning", c.momentum_warning, Dim::none, {.above = 0.0},

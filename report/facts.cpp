@@ -141,10 +141,11 @@ FinalState final_state(const ParticleSet& particles, const MpmHistory& flow,
            "the runout history has {} frames and {} samples (there is nothing to report) run the "
            "flow stage to its end",
            flow.num_frames(), flow.samples().size());
-  validate(p.dim == 2,
-           "the runout has {} dimensions (the report draws sections) take the stage report.runout out "
-           "of the workflow, and `flowslide convert` mpm.h5 for ParaView, docs/guide/valley.md",
-           p.dim);
+  validate(
+      p.dim == 2,
+      "the runout has {} dimensions (the report draws sections) take the stage report.runout out "
+      "of the workflow, and `flowslide convert` mpm.h5 for ParaView, docs/guide/valley.md",
+      p.dim);
   std::vector<std::int64_t> ids = particles.id;
   std::sort(ids.begin(), ids.end());
   validate(ids == p.id,

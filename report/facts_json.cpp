@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+
 #include <nlohmann/json.hpp>
 
 namespace flowslide {
@@ -92,8 +93,8 @@ std::string to_json(const ReportFacts& f) {
   j["regions"] = movements(f.regions);
   Json zone = Json::array();
   for (const auto& [below, share] : f.zone_shares)
-    zone.push_back({{"r_u_below", std::isfinite(below) ? Json(below) : Json(nullptr)},
-                    {"share", share}});
+    zone.push_back(
+        {{"r_u_below", std::isfinite(below) ? Json(below) : Json(nullptr)}, {"share", share}});
   j["residual_strength_area"] = zone;
   j["warnings"] = f.warnings;
   return j.dump(2) + "\n";

@@ -45,21 +45,21 @@ std::string movements(const std::vector<Movement>& list, std::string_view kind, 
 }
 
 std::string key_numbers(const ReportFacts& f, const ReportConfig& c) {
-  Rows rows{{"runout (fifth-farthest point past the toe)",
-             number(is_set(f.toe) ? f.runout : kUnset, 2, "m")},
-            {fmt::format("runout leaving out {:g} % of the failed mass", 100.0 * c.mass_quantile),
-             number(f.runout_mass, 2, "m")},
-            {"the same of equal mass: 5 of the 7,400 points of the case study",
-             number(past_toe(f, f.composition.fronts.equal_mass), 2, "m")},
-            {"runout leaving out 0.5, 1, 5 % of the mass that counts",
-             fmt::format("{}, {}, {}", number(past_toe(f, f.composition.fronts.q995), 2, "m"),
-                         number(past_toe(f, f.composition.fronts.q99), 2, "m"),
-                         number(past_toe(f, f.composition.fronts.q95), 2, "m"))},
-            {"height at the end, y leaving out 0.5 % of the mass",
-             number(f.composition.height, 2, "m")},
-            {"toe, x", number(f.toe, 2, "m")},
-            {"front, x (fifth-farthest point)", number(f.front, 2, "m")},
-            {"farthest point, x", number(f.front_farthest, 2, "m")}};
+  Rows rows{
+      {"runout (fifth-farthest point past the toe)",
+       number(is_set(f.toe) ? f.runout : kUnset, 2, "m")},
+      {fmt::format("runout leaving out {:g} % of the failed mass", 100.0 * c.mass_quantile),
+       number(f.runout_mass, 2, "m")},
+      {"the same of equal mass: 5 of the 7,400 points of the case study",
+       number(past_toe(f, f.composition.fronts.equal_mass), 2, "m")},
+      {"runout leaving out 0.5, 1, 5 % of the mass that counts",
+       fmt::format("{}, {}, {}", number(past_toe(f, f.composition.fronts.q995), 2, "m"),
+                   number(past_toe(f, f.composition.fronts.q99), 2, "m"),
+                   number(past_toe(f, f.composition.fronts.q95), 2, "m"))},
+      {"height at the end, y leaving out 0.5 % of the mass", number(f.composition.height, 2, "m")},
+      {"toe, x", number(f.toe, 2, "m")},
+      {"front, x (fifth-farthest point)", number(f.front, 2, "m")},
+      {"farthest point, x", number(f.front_farthest, 2, "m")}};
   for (const auto& [window, depth] : f.liquefaction_depth)
     rows.emplace_back("depth of liquefaction, " + window, number(depth, 2, "m"));
   rows.insert(

@@ -102,10 +102,10 @@ OutcomeFacts outcome_facts(const ParticleSet& p, const FinalState& end,
   f.height = high - low;
   f.largest = {exceeded(shaking), exceeded(flow), exceeded(both)};
   f.crest = crest_facts(p, end, config);
-  f.outcome = f.largest.both < config.stood                     ? Outcome::stood
-              : f.largest.both < config.moved                   ? Outcome::deformed
+  f.outcome = f.largest.both < config.stood                   ? Outcome::stood
+              : f.largest.both < config.moved                 ? Outcome::deformed
               : f.largest.flow < config.flow_reach * f.height ? Outcome::slid
-                                                                : Outcome::flowed;
+                                                              : Outcome::flowed;
   return f;
 }
 

@@ -25,8 +25,8 @@ struct Apart {
 /// The downstream edge of the highest ground, from the undeformed section [m].
 struct CrestFacts {
   double x = kUnset, level = kUnset;
-  Apart outward;     ///< towards larger x
-  Apart settlement;  ///< downwards
+  Apart outward;              ///< towards larger x
+  Apart settlement;           ///< downwards
   double freeboard = kUnset;  ///< level after settlement above the pond; unset without one
 };
 

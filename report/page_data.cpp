@@ -177,9 +177,8 @@ PageData page_data(const ReportInputs& in, const ReportConfig& config, const Rep
   j["materials"] = Json::array();
   const ParticleSet& p = in.flow.initial();
   for (const MaterialSpec& m : p.materials)
-    j["materials"].push_back({{"name", m.name},
-                              {"counts", m.counts_for_runout},
-                              {"liquefied", m.liquefied}});
+    j["materials"].push_back(
+        {{"name", m.name}, {"counts", m.counts_for_runout}, {"liquefied", m.liquefied}});
   j["soils"] = Json::array();
   for (const auto& [tag, name] : soil_names(in.stages))
     j["soils"].push_back({{"tag", tag}, {"name", name}});

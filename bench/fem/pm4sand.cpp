@@ -1,7 +1,7 @@
 #include "constitutive/pm4sand.hpp"
-#include "core/elementary.hpp"
 
 #include "bench/fem/speed.hpp"
+#include "core/elementary.hpp"
 
 #include <algorithm>
 #include <array>

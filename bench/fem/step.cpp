@@ -1,5 +1,5 @@
-#include "core/elementary.hpp"
 #include "bench/fem/speed.hpp"
+#include "core/elementary.hpp"
 #include "verify/fem/scene.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include "bench/mpm/column.hpp"
 
 #include "core/elementary.hpp"
-#include "mpm/kernels/basis.hpp"
 #include "mpm/grid/local_grid.hpp"
+#include "mpm/kernels/basis.hpp"
 
 #include <cmath>
 #include <random>

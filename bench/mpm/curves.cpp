@@ -1,7 +1,7 @@
-#include "core/conventions.hpp"
-#include "core/elementary.hpp"
 #include "bench/mpm/bandwidth.hpp"
 #include "bench/mpm/speed.hpp"
+#include "core/conventions.hpp"
+#include "core/elementary.hpp"
 #include "mpm/run/load.hpp"
 
 #include <cmath>
@@ -29,9 +29,8 @@ ParticleSet bar(double spacing) {
   resize(p, nx * ny);
   for (std::size_t q = 0; q < p.size(); ++q) {
     p.position[q] = {(double(q % nx) + 0.5) * spacing, (double(q / nx) + 0.5) * spacing, 0.0};
-    p.velocity[q] = {
-        Bar::across[0] + Bar::amplitude * cos(kPi * p.position[q][0] / Bar::length),
-        Bar::across[1], 0.0};
+    p.velocity[q] = {Bar::across[0] + Bar::amplitude * cos(kPi * p.position[q][0] / Bar::length),
+                     Bar::across[1], 0.0};
     p.volume[q] = spacing * spacing;
     p.mass[q] = Bar::density * p.volume[q];
     p.material[q] = 0;

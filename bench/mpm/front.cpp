@@ -18,9 +18,9 @@ struct Line {
 std::vector<Measurement> front_precision() {
   const double exact = collapse(sand(1.0), kFine).front;
   std::vector<Measurement> all;
-  for (const Line& line : {Line{"aflip", Transfer::aflip}, Line{"apic", Transfer::apic},
-                           Line{"tpic", Transfer::tpic}, Line{"flip_0.99", Transfer::flip},
-                           Line{"fmpm_2", Transfer::fmpm}}) {
+  for (const Line& line :
+       {Line{"aflip", Transfer::aflip}, Line{"apic", Transfer::apic}, Line{"tpic", Transfer::tpic},
+        Line{"flip_0.99", Transfer::flip}, Line{"fmpm_2", Transfer::fmpm}}) {
     for (const int cells : {8, 16, 32}) {
       DryColumn column = sand(1.0);
       column.transfer = line.transfer;
@@ -31,9 +31,8 @@ std::vector<Measurement> front_precision() {
       m.value = std::abs(d.front / exact - 1.0);
       m.unit = "error of the front";
       m.better = Better::lower;
-      m.numbers = {{"front", d.front},
-                   {"height", d.height},
-                   {"core_seconds", thread_seconds() - start}};
+      m.numbers = {
+          {"front", d.front}, {"height", d.height}, {"core_seconds", thread_seconds() - start}};
       all.push_back(m);
     }
   }

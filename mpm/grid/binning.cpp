@@ -67,7 +67,7 @@ void link_tiles(Grid<Dim>& grid, Tiling<Dim>& tiling) {
 
   // Nodes, and about as much for the windows of the tiles.
   const double bytes = 2.0 * sizeof(Node) * kBlockNodes<Dim> * double(keys.size());
-  if (keys.size() * kBlockNodes<Dim> > grid.nodes.capacity() && bytes > 1e8)
+  if (keys.size() * kBlockNodes < Dim >> grid.nodes.capacity() && bytes > 1e8)
     need_memory(bytes,
                 fmt::format("a grid of {} blocks of {} cells of {:.3g} m", keys.size(),
                             kBlockNodes<Dim>, grid.h),

@@ -13,8 +13,8 @@ struct TileScratch {
   std::array<std::vector<double>, Dim * Dim> gradient;  ///< row-major L [1/s]
   std::array<std::vector<double>, Dim> velocity;        ///< of fmpm's series [m/s]
   SpanScratch average;
-  double gain2 = 0.0;      ///< of update_momentum [m2/s2]
-  bool outside = false;    ///< a tile has points outside its window
+  double gain2 = 0.0;    ///< of update_momentum [m2/s2]
+  bool outside = false;  ///< a tile has points outside its window
 };
 
 /// Components [first, first + Dim) of the nodes around a tile, one array per component.

@@ -48,8 +48,8 @@ struct MomentumSettings {
 /// and the points near them weigh them with w -> 0 anyway.
 inline constexpr double kMassFloor = 1e-18;
 
-/// Local non-viscous damping opposes the motion with a share of the force (Cundall 1987); what rests
-/// it keeps from starting.
+/// Local non-viscous damping opposes the motion with a share of the force (Cundall 1987); what
+/// rests it keeps from starting.
 inline double damping_force(double factor, double force, double velocity) noexcept {
   if (factor == 0.0) return 0.0;
   return -factor * (velocity == 0.0 ? force : std::copysign(std::abs(force), velocity));

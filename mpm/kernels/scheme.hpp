@@ -34,10 +34,10 @@ struct StepSettings {
   double flip_share = 0.99;  ///< of flip; 0 is pic
   int fmpm_order = 2;        ///< of fmpm: terms of its series; 1 is pic
   VolumeAverage volume_average = VolumeAverage::automatic;
-  double courant = 0.9;          ///< share of the stable step of docs/theory/time-step.md
-  double velocity_limit = 0.2;   ///< cells the fastest point may cross in a step
-  double strain_limit = 0.05;    ///< largest |L| dt aimed at
-  double damping = 0.0;          ///< local, non-viscous (Cundall) [-]
+  double courant = 0.9;         ///< share of the stable step of docs/theory/time-step.md
+  double velocity_limit = 0.2;  ///< cells the fastest point may cross in a step
+  double strain_limit = 0.05;   ///< largest |L| dt aimed at
+  double damping = 0.0;         ///< local, non-viscous (Cundall) [-]
 };
 
 }  // namespace flowslide::mpm

@@ -1,9 +1,9 @@
 #pragma once
 #include "core/check.hpp"
 #include "core/unroll.hpp"
-#include "mpm/kernels/basis.hpp"
 #include "mpm/grid/grid.hpp"
 #include "mpm/grid/points.hpp"
+#include "mpm/kernels/basis.hpp"
 
 /// Weights of as many points as a Pack has lanes, and where their nodes lie in a tile's window.
 namespace flowslide::mpm {

@@ -120,8 +120,7 @@ template <int Dim, class M>
     write_state<M, T>(p, q, n, result.state);
     const T new_volume = grown(volume, de[0] + de[1] + de[2]);
     write(p.volume, new_volume);
-    const T present =
-        present_modulus<Dim, M, T>(constants, result, modulus, material.elastic.bulk);
+    const T present = present_modulus<Dim, M, T>(constants, result, modulus, material.elastic.bulk);
     sums.wave2 = max(sums.wave2, present * new_volume * reciprocal(read(p.mass, q)));
     T v2 = 0.0, l2 = 0.0;
     unroll<Dim>([&](auto d) {

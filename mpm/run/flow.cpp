@@ -1,11 +1,11 @@
 #include "mpm/run/flow.hpp"
 
 #include "model/long_run.hpp"
-#include "mpm/solver/balance.hpp"
-#include "mpm/solver/checkpoint.hpp"
 #include "mpm/run/extrude.hpp"
 #include "mpm/run/load.hpp"
 #include "mpm/run/rest_forecast.hpp"
+#include "mpm/solver/balance.hpp"
+#include "mpm/solver/checkpoint.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -61,9 +61,9 @@ struct TractionSettings {
 /// Where and for how long the steps are taken, beside what is set about each of them.
 struct FlowConfig : mpm::StepSettings {
   FlowConfig() { transfer = mpm::Transfer::aflip; }  ///< docs/adr/0009-transfer-of-velocity.md
-  double cell = kUnset;                 ///< [m]
-  std::array<double, 2> grid_origin{};  ///< [m]
-  double end = kUnset;                  ///< [s]
+  double cell = kUnset;                              ///< [m]
+  std::array<double, 2> grid_origin{};               ///< [m]
+  double end = kUnset;                               ///< [s]
   GroundSettings ground;
   AbsorbingSettings absorbing;
   OutletSettings outlet;
@@ -77,7 +77,7 @@ struct FlowConfig : mpm::StepSettings {
   double gravity = 9.81;  ///< [m/s2]
   std::optional<SleepSettings> sleep;
   RestRule rest;
-  double frame_interval = 5.0;    ///< [s]
+  double frame_interval = 5.0;         ///< [s]
   std::optional<double> frame_travel;  ///< [m]
   double sample_interval = 0.25;       ///< [s]
 };

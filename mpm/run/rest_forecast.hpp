@@ -11,8 +11,8 @@ class RestForecast {
  public:
   /// Kinetic energy [J] at a time later than the last [s].
   void look(double time, double kinetic);
-  /// Time at which the kinetic energy will have fallen from its peak [J] to `share` of it [s]; empty
-  /// before it falls.
+  /// Time at which the kinetic energy will have fallen from its peak [J] to `share` of it [s];
+  /// empty before it falls.
   [[nodiscard]] std::optional<double> rest(double peak, double share) const;
 
  private:

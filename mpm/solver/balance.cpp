@@ -105,8 +105,8 @@ void balance_energy(const Balance<Dim>& b, const PointSums<Dim>& start, const Po
 }
 
 template <int Dim>
-double momentum_error(const Balance<Dim>& b, const PointSums<Dim>& start,
-                      const PointSums<Dim>& now, const PointSums<Dim>& left) {
+double momentum_error(const Balance<Dim>& b, const PointSums<Dim>& start, const PointSums<Dim>& now,
+                      const PointSums<Dim>& left) {
   double impulse = 0.0, momentum_residual = 0.0;
   for (int d = 0; d < Dim; ++d) {
     const double expected = start.momentum[d] + b.grid.gravity_impulse[d] + b.grid.load_impulse[d] +

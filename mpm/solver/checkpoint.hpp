@@ -17,9 +17,9 @@ struct RunState {
   double peak_kinetic = 0.0;                   ///< [J]
   double mass_start = 0.0, kinetic_start = 0.0, potential_start = 0.0, recoverable_start = 0.0;
   std::array<double, 3> momentum_start{};
-  double first_dt = 0.0;                      ///< [s]
-  std::int64_t updates = 0;                   ///< sum over the steps of the points awake in them
-  std::int64_t short_steps = 0;               ///< steps in a row far below the first
+  double first_dt = 0.0;         ///< [s]
+  std::int64_t updates = 0;      ///< sum over the steps of the points awake in them
+  std::int64_t short_steps = 0;  ///< steps in a row far below the first
   EnergyWatch energy;
   std::vector<std::array<double, 2>> recent;  ///< (time, front) of the rest window
 };

@@ -1,8 +1,8 @@
 #pragma once
+#include "mpm/grid/take_turns.hpp"
 #include "mpm/kernels/g2p.hpp"
 #include "mpm/kernels/p2g.hpp"
 #include "mpm/solver/simulation.hpp"
-#include "mpm/grid/take_turns.hpp"
 
 /// Sweeps over the grid beside the plain step: velocities of the points mapped to a second set of
 /// nodes (usf, musl), and the series of the full mass matrix (fmpm). All are called by every thread

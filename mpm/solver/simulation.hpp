@@ -1,12 +1,12 @@
 #pragma once
 #include "mpm/grid/binning.hpp"
-#include "mpm/walls/contact.hpp"
-#include "mpm/kernels/momentum.hpp"
-#include "mpm/solver/outlet.hpp"
 #include "mpm/grid/shares.hpp"
-#include "mpm/solver/sleep.hpp"
+#include "mpm/kernels/momentum.hpp"
 #include "mpm/kernels/stress.hpp"
+#include "mpm/solver/outlet.hpp"
+#include "mpm/solver/sleep.hpp"
 #include "mpm/solver/traction.hpp"
+#include "mpm/walls/contact.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -37,7 +37,7 @@ struct Simulation {
   Sleep<Dim> sleep;
   StepSettings settings;
   std::array<double, 3> gravity{};  ///< [m/s2]
-  double full_mass = 0.0;  ///< mass of a full cell [kg], the scale of the mass floor
+  double full_mass = 0.0;           ///< mass of a full cell [kg], the scale of the mass floor
   /// Per material, of its points at the start [kg/m3]; 0: its points never count as debris.
   std::vector<double> largest_density;
 

@@ -1,7 +1,7 @@
 #pragma once
 #include "core/elementary.hpp"
-#include "mpm/solver/hold_asleep.hpp"
 #include "mpm/kernels/p2g.hpp"
+#include "mpm/solver/hold_asleep.hpp"
 #include "mpm/solver/remap.hpp"
 #include "mpm/solver/simulation.hpp"
 #include "mpm/solver/way.hpp"
@@ -105,7 +105,7 @@ struct Phases {
   const MomentumSettings momentum{dt, s.gravity, s.settings.damping, scratch.light};
   /// Share of its own velocity that a point keeps with aflip and flip.
   const double keep = s.settings.transfer == Transfer::flip ? s.settings.flip_share
-                                                             : exp(-dt / s.settings.relaxation);
+                                                            : exp(-dt / s.settings.relaxation);
   // Only with symplectic updates: their windows keep what the points gave.
   const bool sleepers = !scratch.asleep.tiles.empty();
 
@@ -196,9 +196,9 @@ struct Phases {
         s.settings.transfer == Transfer::flip || s.settings.transfer == Transfer::aflip;
     if (sleepers)
       take_turns(scratch.asleep, thread, [&](std::int32_t i) {
-        scratch.stress_work[i] = hold_asleep<Dim, Basis>(
-            s.tiling.tiles[i], window_of<Dim, Basis>(scratch, i), s.grid, momentum,
-            keeps ? keep : 0.0, scratch.sleep_work[i]);
+        scratch.stress_work[i] =
+            hold_asleep<Dim, Basis>(s.tiling.tiles[i], window_of<Dim, Basis>(scratch, i), s.grid,
+                                    momentum, keeps ? keep : 0.0, scratch.sleep_work[i]);
       });
     if (update == Update::musl) strain_from_points(thread);
   }

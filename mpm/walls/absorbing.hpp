@@ -1,7 +1,7 @@
 #pragma once
-#include "mpm/kernels/basis.hpp"
 #include "mpm/grid/grid.hpp"
 #include "mpm/grid/points.hpp"
+#include "mpm/kernels/basis.hpp"
 #include "mpm/kernels/stress.hpp"
 
 #include <array>

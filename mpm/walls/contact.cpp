@@ -94,8 +94,8 @@ void take_nodes(const StaggeredArray<Node>& nodes, Contact<Dim>& c, double floor
   }
 }
 
-/// Does a wall point that soil touches act in a solution? `pushed` is the normal impulse of the last
-/// step.
+/// Does a wall point that soil touches act in a solution? `pushed` is the normal impulse of the
+/// last step.
 bool acts(WallKind kind, double pushed, Hold hold, Ends ends) noexcept {
   switch (kind) {
     case WallKind::ground:

@@ -1,8 +1,8 @@
 #pragma once
-#include "mpm/walls/absorbing.hpp"
-#include "mpm/walls/boundary.hpp"
 #include "mpm/grid/grid.hpp"
 #include "mpm/kernels/momentum.hpp"
+#include "mpm/walls/absorbing.hpp"
+#include "mpm/walls/boundary.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -33,9 +33,9 @@ struct Contact {
   using Vector = std::array<double, Dim>;
   std::vector<WallPoint<Dim>> walls;
   Absorbing<Dim> absorbing;
-  std::vector<std::int32_t> node;   ///< per entry, into `nodes`
-  std::vector<double> weight;       ///< per entry: the node's share of the wall point's impulse
-  std::vector<std::int32_t> nodes;  ///< contact nodes as indices into Grid::nodes, ascending
+  std::vector<std::int32_t> node;       ///< per entry, into `nodes`
+  std::vector<double> weight;           ///< per entry: the node's share of the wall point's impulse
+  std::vector<std::int32_t> nodes;      ///< contact nodes as indices into Grid::nodes, ascending
   std::vector<std::uint64_t> in_block;  ///< per block: a bit for each of its contact nodes
   // Buffers of a step.
   std::vector<Vector> velocity;      ///< per contact node [m/s]

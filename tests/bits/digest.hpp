@@ -30,10 +30,8 @@ class Digest {
     for (const double x : numbers) add(x);
   }
   template <class V>
-    requires requires(V x) { x.v.size(); }
-  void add(const V& components) {
-    add(components.v);
-  }
+  requires requires(V x) { x.v.size(); }
+  void add(const V& components) { add(components.v); }
   void add(std::int64_t x) { hash_.add(&x, sizeof x); }
   void add(std::int32_t x) { add(std::int64_t{x}); }
   /// 16 hexadecimal digits; once.

@@ -116,8 +116,7 @@ Lines laws(int threads) {
     c.extrude.emplace();
     c.extrude->width = 1.5;
     c.side_rollers = {{0.0, 1.5}};
-    lines.push_back(
-        {"law/" + m.law + "/3D", digest<3>(extrude(block(m), 1.5), c, threads, 60)});
+    lines.push_back({"law/" + m.law + "/3D", digest<3>(extrude(block(m), 1.5), c, threads, 60)});
   }
   return lines;
 }

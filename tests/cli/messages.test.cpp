@@ -134,4 +134,3 @@ TEST_CASE("numbers in two pairs of quotes and odd blanks are named", "[cli]") {
   o = check("      preset: corinth\n      pga: 0,3 g");
   CHECK_THAT(o.err, Contains("has ',' in a number"));
 }
-

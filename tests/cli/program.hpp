@@ -20,7 +20,8 @@ struct Outcome {
 inline const std::string kWithoutPower =
     ::geteuid() == 0 ? "setpriv --bounding-set=-dac_override,-dac_read_search " : "";
 
-inline Outcome call(const Scratch& scratch, const std::string& arguments, const std::string& before = "") {
+inline Outcome call(const Scratch& scratch, const std::string& arguments,
+                    const std::string& before = "") {
   const std::string command = "cd '" + scratch.path().string() + "' && " + before +
                               FLOWSLIDE_BINARY " " + arguments + " >out.txt 2>err.txt";
   const int status = std::system(command.c_str());
@@ -30,11 +31,9 @@ inline Outcome call(const Scratch& scratch, const std::string& arguments, const 
 
 /// What a terminal of so many columns shows of a command.
 inline std::string on_terminal(const Scratch& scratch, const std::string& arguments,
-                        std::size_t columns) {
-  const winsize size{.ws_row = 24,
-                     .ws_col = static_cast<unsigned short>(columns),
-                     .ws_xpixel = 0,
-                     .ws_ypixel = 0};
+                               std::size_t columns) {
+  const winsize size{
+      .ws_row = 24, .ws_col = static_cast<unsigned short>(columns), .ws_xpixel = 0, .ws_ypixel = 0};
   int master = -1;
   const pid_t child = ::forkpty(&master, nullptr, nullptr, &size);
   REQUIRE(child >= 0);

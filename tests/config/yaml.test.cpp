@@ -2,10 +2,10 @@
 
 #include "tests/config/sample.hpp"
 
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <catch2/catch.hpp>
-#include <sys/resource.h>
 
 using namespace flowslide;
 using sample::load_problem;
@@ -48,8 +48,7 @@ TEST_CASE("a value of the wrong kind is refused at its place", "[config]") {
 
 TEST_CASE("a file that cannot be read is a FileError", "[config]") {
   CHECK_THROWS_AS(load_yaml("no-such-file.yaml"), FileError);
-  CHECK_THROWS_WITH(load_yaml("no-such-file.yaml"),
-                    "no-such-file.yaml: no such file");
+  CHECK_THROWS_WITH(load_yaml("no-such-file.yaml"), "no-such-file.yaml: no such file");
   const YamlFile file("a: 1\n");
   CHECK_THROWS_AS(load_yaml(file.folder()), FileError);
   CHECK_THROWS_AS(load_yaml("/dev/zero"), FileError);

@@ -103,7 +103,8 @@ TEST_CASE("PM4Sand's defaults are those of OpenSees", "[pm4sand]") {
   CHECK(s.p_min == Approx(kAtmosphere / 200.0));
 }
 
-TEST_CASE("PM4Sand takes coarser sub-steps in explicit steps of a mesh unless they are given", "[pm4sand]") {
+TEST_CASE("PM4Sand takes coarser sub-steps in explicit steps of a mesh unless they are given",
+          "[pm4sand]") {
   auto p = pm4sand_tailings();
   CHECK(PM4Sand::constants(p).tolerance == 1e-5);
   CHECK(PM4Sand::mesh_constants(p).tolerance == 1e-4);

@@ -57,7 +57,8 @@ struct Arguments {
 
 }  // namespace
 
-// The references are those of the library in 64 bits, whose own error is a two-thousandth of a unit.
+// The references are those of the library in 64 bits, whose own error is a two-thousandth of a
+// unit.
 TEST_CASE("Exponentials and logarithms are accurate to one unit in the last place", "[core]") {
   const auto exp = [](double x, double) { return flowslide::exp(x); };
   const auto exact_exp = [](double x, double) { return std::exp(static_cast<long double>(x)); };
@@ -115,8 +116,9 @@ TEST_CASE("Functions of angles are accurate to the units that they promise", "[c
   CHECK(largest(atan2, exact_atan2, [](Random& r) {
           return Arguments{r.between(-1, 1), r.between(-1, 1)};
         }) < 2.0);
-  CHECK(largest(atan2, exact_atan2, [](Random& r) { return Arguments{r.wide(30), r.wide(30)}; }) <
-        2.0);
+  CHECK(largest(atan2, exact_atan2, [](Random& r) {
+          return Arguments{r.wide(30), r.wide(30)};
+        }) < 2.0);
   CHECK(largest(atan2, exact_atan2, [](Random& r) {
           return Arguments{0x1p1000 * r.between(-1, 1), 0x1p1000 * r.between(-1, 1)};
         }) < 2.0);
@@ -128,8 +130,9 @@ TEST_CASE("Functions of angles are accurate to the units that they promise", "[c
   const auto exact_hypot = [](double x, double y) {
     return std::hypot(static_cast<long double>(x), static_cast<long double>(y));
   };
-  CHECK(largest(hypot, exact_hypot, [](Random& r) { return Arguments{r.wide(20), r.wide(20)}; }) <
-        2.0);
+  CHECK(largest(hypot, exact_hypot, [](Random& r) {
+          return Arguments{r.wide(20), r.wide(20)};
+        }) < 2.0);
   CHECK(largest(hypot, exact_hypot, [](Random& r) {
           return Arguments{r.wide(500) * 0x1p520, r.wide(500) * 0x1p520};
         }) < 2.0);
@@ -179,7 +182,7 @@ TEMPLATE_TEST_CASE_SIG("A lane has the bits of a double", "[core]", ((int N), N)
   const auto same = [](double a, double b) {
     return std::memcmp(&a, &b, sizeof a) == 0 || (std::isnan(a) && std::isnan(b));
   };
-  const double special[] = {0.0,  -0.0, kInfinity, -kInfinity, std::nan(""), 1.0,      -1.0,
+  const double special[] = {0.0,    -0.0,  kInfinity, -kInfinity, std::nan(""), 1.0,    -1.0,
                             1e-310, 708.5, 709.9,     -708.5,     -740.0,       -800.0, 1e300};
   Random random;
   int different = 0;

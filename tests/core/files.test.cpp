@@ -1,11 +1,13 @@
-#include "core/check.hpp"
 #include "core/files.hpp"
+
+#include "core/check.hpp"
 #include "core/temporary_folder.hpp"
 
-#include <catch2/catch.hpp>
 #include <fcntl.h>
 #include <fstream>
 #include <sys/stat.h>
+
+#include <catch2/catch.hpp>
 
 using namespace flowslide;
 namespace fs = std::filesystem;
@@ -68,7 +70,8 @@ TEST_CASE("Writing a file again clears away what its killed writer left, and not
 TEST_CASE("Only what writers left behind is cleared away") {
   const TemporaryFolder folder;
   const fs::path left = temporary_name(folder / "a.h5");
-  for (const fs::path& path : {left, folder / "a.h5", folder / ".a.h5.partial", folder / "b.partial"})
+  for (const fs::path& path :
+       {left, folder / "a.h5", folder / ".a.h5.partial", folder / "b.partial"})
     std::ofstream(path) << "x";
   remove_leftovers(folder / ".");
   CHECK(!fs::exists(left));

@@ -1,8 +1,8 @@
 #include "core/hash.hpp"
 
-#include <catch2/catch.hpp>
-
 #include "core/check.hpp"
+
+#include <catch2/catch.hpp>
 
 TEST_CASE("sha256 gives the published digest of 'abc'", "[core]") {
   // FIPS 180-2, appendix B.1.

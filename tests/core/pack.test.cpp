@@ -34,8 +34,8 @@ TEMPLATE_TEST_CASE("A sum over points has the order of the widest registers", "[
   OrderedSum<TestType> sum;
   for (double& value : x) value = uniform(random);
   for (int i = 0; i < n; i += lanes)
-    sum.add(select(first_lanes<TestType>(n - i), load_lanes<TestType>(&x[i], std::min(lanes, n - i)),
-                   TestType(0.0)));
+    sum.add(select(first_lanes<TestType>(n - i),
+                   load_lanes<TestType>(&x[i], std::min(lanes, n - i)), TestType(0.0)));
   for (int i = 0; i < n; ++i) part[i % widest] += x[i];
   CHECK(sum.total() == std::accumulate(part.begin(), part.end(), 0.0));
   CHECK(sum.total() != std::accumulate(x.begin(), x.end(), 0.0));  // control: the order matters

@@ -1,11 +1,11 @@
 #include "core/units.hpp"
 
+#include "core/check.hpp"
+
 #include <cmath>
 #include <string>
 
 #include <catch2/catch.hpp>
-
-#include "core/check.hpp"
 
 using namespace flowslide;
 

@@ -45,9 +45,7 @@ Count implicit_step(double tolerance) {
 
 TEST_CASE("An explicit step of shaking allocates nothing", "[fem]") {
   Solver s = section_at_rest();
-  const auto step = [&] {
-    advance(s, {ground(s.state.time), ground(s.state.time + s.dt)});
-  };
+  const auto step = [&] { advance(s, {ground(s.state.time), ground(s.state.time + s.dt)}); };
   for (int i = 0; i < 5; ++i) step();
   const long before = allocations;
   for (int i = 0; i < 20; ++i) step();

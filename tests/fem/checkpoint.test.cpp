@@ -3,9 +3,9 @@
 #include "fem/build_model.hpp"
 #include "fem/gravity.hpp"
 #include "fem/time_step.hpp"
-#include "verify/fem/scene.hpp"
 #include "model/history.hpp"
 #include "tests/support/scratch.hpp"
+#include "verify/fem/scene.hpp"
 
 #include <csignal>
 #include <memory>
@@ -284,9 +284,7 @@ TEST_CASE("A checkpoint whose numbers cannot be those of the shaking is refused"
   fits_not([](auto& s) { s.state.stress.emplace_back(); });
   fits_not([](auto& s) { std::get<fem::LawStates<PM4Sand>>(s.state.laws).of.pop_back(); });
   fits_not([](auto& s) { s.entry_force.resize(s.entry_force.size() + 8); });
-  const auto order = [&](auto change) {
-    CHECK_THAT(forged(change), Contains("times, steps"));
-  };
+  const auto order = [&](auto change) { CHECK_THAT(forged(change), Contains("times, steps")); };
   order([](auto& s, auto&) { s.state.time = kUnset; });
   order([](auto& s, auto&) { s.state.time = -1e300; });
   order([](auto& s, auto&) { s.state.step = -5; });

@@ -1,5 +1,5 @@
-#include "verify/fem/scene.hpp"
 #include "tests/support/paths.hpp"
+#include "verify/fem/scene.hpp"
 
 #include <fstream>
 #include <map>

@@ -1,8 +1,8 @@
 #include "fem/implicit.hpp"
 
-#include "verify/fem/scene.hpp"
 #include "model/history.hpp"
 #include "tests/support/scratch.hpp"
+#include "verify/fem/scene.hpp"
 
 #include <cmath>
 

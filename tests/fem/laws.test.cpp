@@ -1,5 +1,5 @@
-#include "verify/fem/scene.hpp"
 #include "tests/constitutive/sample_laws.hpp"
+#include "verify/fem/scene.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -47,9 +47,8 @@ TEMPLATE_LIST_TEST_CASE("Elements follow their law, and energy is balanced", "[f
   for (std::size_t e = s.layout.law_begin[k]; e < s.layout.law_begin[k + 1]; ++e) {
     const double* d = &s.strain[3 * e];
     Solver old = before;
-    const auto own =
-        M::update(constants_of<M>(s, s.layout.material[e]), state_of<M>(old, e),
-                  before.state.stress[e], StrainIncrement<2>{{d[0], d[1], 0.0, d[2]}});
+    const auto own = M::update(constants_of<M>(s, s.layout.material[e]), state_of<M>(old, e),
+                               before.state.stress[e], StrainIncrement<2>{{d[0], d[1], 0.0, d[2]}});
     CHECK(distance<2>(own.stress, s.state.stress[e]) == 0.0);
     if constexpr (!std::is_empty_v<typename M::State>)
       CHECK(same_state<typename M::State>(own.state, state_of<M>(s, e)));
@@ -72,8 +71,8 @@ TEMPLATE_TEST_CASE("Soil without friction carries no more shear than its cohesio
     p.tension_cutoff = 1e9;
     m.laws.of<M>() = p;
     m.k0 = 0.98;  // the plane has little shear of its own at rest
-    Solver s = at_rest(section({.columns = 2, .rows = 8, .width = 4.0, .height = 8.0}),
-                       config(m, 0.0));
+    Solver s =
+        at_rest(section({.columns = 2, .rows = 8, .width = 4.0, .height = 8.0}), config(m, 0.0));
     double largest = 0.0;
     const auto ground = [](double t) { return 0.5 * std::sin(2.0 * kPi * 1.5 * t); };
     while (s.state.time < 1.0) {
@@ -83,6 +82,6 @@ TEMPLATE_TEST_CASE("Soil without friction carries no more shear than its cohesio
     return largest;
   };
   const double strong = most(1e9);
-  CHECK(strong > 15e3);                        // control: what the ground asks for
+  CHECK(strong > 15e3);                           // control: what the ground asks for
   CHECK(most(5e3) == Approx(5e3).epsilon(1e-3));  // sigma_zz starts 2 % off the mean of the plane
 }

@@ -1,6 +1,6 @@
-#include "verify/fem/scene.hpp"
 #include "model/history.hpp"
 #include "tests/support/scratch.hpp"
+#include "verify/fem/scene.hpp"
 
 #include <catch2/catch.hpp>
 

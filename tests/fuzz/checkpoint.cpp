@@ -1,11 +1,12 @@
-#include "core/hash.hpp"
 #include "fem/checkpoint.hpp"
-#include "verify/fem/scene.hpp"
+
+#include "core/hash.hpp"
 #include "model/checkpoint_file.hpp"
 #include "mpm/solver/checkpoint.hpp"
 #include "tests/fuzz/input.hpp"
 #include "tests/fuzz/targets.hpp"
 #include "tests/mpm/solid.hpp"
+#include "verify/fem/scene.hpp"
 
 /// Nobody's bytes at random carry the right checksum, so the input is a list of changes to a good
 /// checkpoint, and the checksum is made anew, as somebody who forges one would.
@@ -85,8 +86,8 @@ void runout(Parts parts) {
 }
 
 void shaking(Parts parts) {
-  static const fem::Solver rest = fem::at_rest(fem::section({.columns = 2, .rows = 2}),
-                                               fem::config(fem::sand(), 2.0));
+  static const fem::Solver rest =
+      fem::at_rest(fem::section({.columns = 2, .rows = 2}), fem::config(fem::sand(), 2.0));
   static const std::string good = bytes_of([](const std::filesystem::path& path) {
     fem::Solver s = rest;
     advance(s, {});

@@ -58,8 +58,8 @@ LiquefactionZone zone() {
   z.window_depth_max = z.window_depth_any = z.window_depth_interpolated = z.window_depth_strong =
       z.window_depth_before_slide = {1.0, 2.0};
   z.history.time = {0.0, 1.0};
-  z.history.depth = z.history.depth_max = z.history.depth_any = z.history.depth_interpolated = {
-      {0, 1}, {0, 2}};
+  z.history.depth = z.history.depth_max = z.history.depth_any =
+      z.history.depth_interpolated = {{0, 1}, {0, 2}};
   z.history.kinetic_energy = z.history.sliding_energy = z.history.kinetic_energy_relative = {0, 10};
   z.history.distortion_gauss = z.history.distortion_centre = {1, 0.9};
   z.notes = {"a note"};
@@ -133,7 +133,10 @@ const std::vector<GoodFile>& good_files() {
     using Path = std::filesystem::path;
     add([](const Path& p) { write_section_mesh(p, two_squares()); },
         [](const Path& p) { (void)read_section_mesh(p); });
-    add([](const Path& p) { write_motion_file(p, {0.01, {0.0, 1.0, -1.0}, "a test"}); },
+    add(
+        [](const Path& p) {
+          write_motion_file(p, {0.01, {0.0, 1.0, -1.0}, "a test"});
+        },
         [](const Path& p) { (void)read_motion_file(p); });
     add(write_shaking, read_shaking);
     add([](const Path& p) { write_zone(p, zone()); }, [](const Path& p) { (void)read_zone(p); });

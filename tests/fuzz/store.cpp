@@ -19,7 +19,7 @@ struct Change {
 };
 
 hid_t type_of(std::uint64_t value) {
-  const std::array<hid_t, 8> types{H5T_IEEE_F64LE, H5T_IEEE_F32BE, H5T_STD_I64LE,  H5T_STD_U64LE,
+  const std::array<hid_t, 8> types{H5T_IEEE_F64LE, H5T_IEEE_F32BE, H5T_STD_I64LE,   H5T_STD_U64LE,
                                    H5T_STD_I32BE,  H5T_STD_U8LE,   H5T_STD_REF_OBJ, H5T_C_S1};
   return types[value % types.size()];
 }
@@ -27,10 +27,10 @@ hid_t type_of(std::uint64_t value) {
 /// A dataset of another type and shape in place of one; nothing is written to it.
 void replace(hid_t file, const std::string& name, hid_t type, const std::vector<hsize_t>& extent) {
   H5Ldelete(file, name.c_str(), H5P_DEFAULT);
-  const Hdf5Handle space(extent.empty() ? H5Screate(H5S_SCALAR)
-                                        : H5Screate_simple(static_cast<int>(extent.size()),
-                                                           extent.data(), nullptr),
-                         &H5Sclose);
+  const Hdf5Handle space(
+      extent.empty() ? H5Screate(H5S_SCALAR)
+                     : H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
+      &H5Sclose);
   const Hdf5Handle layout(H5Pcreate(H5P_DATASET_CREATE), &H5Pclose);
   if (!extent.empty()) {
     const std::vector<hsize_t> chunk(extent.size(), 2);
@@ -122,8 +122,8 @@ void apply(hid_t file, const std::string& name, const Change& c) {
       break;
     default: {
       H5Ldelete(file, name.c_str(), H5P_DEFAULT);
-      const Hdf5Handle group(
-          H5Gcreate2(file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), &H5Gclose);
+      const Hdf5Handle group(H5Gcreate2(file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                             &H5Gclose);
     }
   }
 }

@@ -150,7 +150,8 @@ TEST_CASE("gmsh files that are no section are refused with their place") {
   CHECK_THAT(error_of(kFormat2, "10 3 2 168", "10 4294967299 2 168"),
              Contains("type 4294967299 is larger"));
   CHECK_THAT(error_of(kFormat2, "2 168 \"", "2 4294967464 \""), Contains("is larger"));
-  CHECK_THAT(error_of(kFormat2, "2 168 \"", "2x168 \""), Contains("is not a dimension and a number"));
+  CHECK_THAT(error_of(kFormat2, "2 168 \"", "2x168 \""),
+             Contains("is not a dimension and a number"));
   CHECK_THAT(error_of(kFormat2, "2 168 \"", "168 \""), Contains("dimension, number, \"name\""));
   CHECK_THAT(error_of(kFormat4, "1 0 0 0 1 1 0 1 168", "1 0 0 0 1 1 0 1 4294967464"),
              Contains("is larger"));

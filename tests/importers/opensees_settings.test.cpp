@@ -1,7 +1,6 @@
-#include "importers/opensees.hpp"
-
 #include "config/yaml.hpp"
 #include "core/check.hpp"
+#include "importers/opensees.hpp"
 #include "small_model.hpp"
 
 #include <catch2/catch.hpp>

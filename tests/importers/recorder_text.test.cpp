@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-
 #include <sys/stat.h>
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
 #pragma once
-#include "tests/support/data_folder.hpp"
 #include "importers/opensees.hpp"
+#include "tests/support/data_folder.hpp"
 
 #include <string>
 

@@ -57,8 +57,8 @@ TEST_CASE("a changed byte anywhere in the records that count is noticed") {
     std::string bad = good;
     bad[i] = static_cast<char>(bad[i] ^ 1);
     put_bytes(folder / "f", bad);
-    REQUIRE_THAT(refusal(folder / "f", 3),
-                 Contains(fmt::format("record {} ", i / kStep)) && Contains("delete the checkpoint"));
+    REQUIRE_THAT(refusal(folder / "f", 3), Contains(fmt::format("record {} ", i / kStep)) &&
+                                               Contains("delete the checkpoint"));
     put_bytes(folder / "f", bad);
     // What comes behind the checkpoint does not count: it is written again.
     REQUIRE((refusal(folder / "f", 2) == "(none)") == (i >= 2 * kStep));

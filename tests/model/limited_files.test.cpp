@@ -152,8 +152,7 @@ TEST_CASE("Pictures and checkpoints are whole or not there") {
     const QuadMesh m = strip(100);
     write_vtp(folder / "p.vtp", particles(), particle_frame(1));
     write_vtu(folder / "m.vtu", m, mesh_frame(m, 1));
-    write_pvd(folder / "p.pvd",
-              std::vector<std::pair<double, fs::path>>{{0.0, folder / "p.vtp"}});
+    write_pvd(folder / "p.pvd", std::vector<std::pair<double, fs::path>>{{0.0, folder / "p.vtp"}});
   });
   check_limited_files([](const fs::path& folder) {
     CheckpointWriter out(folder / "c", 7);

@@ -3,7 +3,6 @@
 #include "core/check.hpp"
 #include "motion/write_motion.hpp"
 #include "signals.hpp"
-
 #include "tests/support/limited_files.hpp"
 
 #include <sys/stat.h>
@@ -99,7 +98,8 @@ TEST_CASE("a written motion reads back to the same numbers", "[motion]") {
 }
 
 TEST_CASE("a motion on a full disk is whole or not there", "[motion]") {
-  const GroundMotion motion = sampled(0.005, 1.0, [](double t) { return std::sin(40.0 * t) / 3.0; });
+  const GroundMotion motion =
+      sampled(0.005, 1.0, [](double t) { return std::sin(40.0 * t) / 3.0; });
   test::check_limited_files(
       [&](const std::filesystem::path& folder) { write_motion(folder / "m.csv", motion); }, 20);
 }

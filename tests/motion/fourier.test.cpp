@@ -1,5 +1,6 @@
-#include "core/conventions.hpp"
 #include "motion/fourier.hpp"
+
+#include "core/conventions.hpp"
 
 #include <cmath>
 

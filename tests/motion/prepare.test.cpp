@@ -9,8 +9,8 @@
 
 using namespace flowslide;
 using Catch::Contains;
-using flowslide::test::harmonic;
 using flowslide::test::DataFolder;
+using flowslide::test::harmonic;
 
 namespace {
 

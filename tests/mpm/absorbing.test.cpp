@@ -75,7 +75,7 @@ TEST_CASE("Pulses leave through an absorbing plane", "[mpm]") {
   pulse.config.absorbing.left = 0.0;
   const Pulse::Back open = pulse.comes_back();
   CHECK(open.amplitude < 0.025);  // 0.06 % of the energy
-  CHECK(open.absorbed > 0.85);   // the sides of the block scatter
+  CHECK(open.absorbed > 0.85);    // the sides of the block scatter
   pulse.config.absorbing.left.reset();
   pulse.config.left_roller = 0.0;  // control: it stops P and lets the side of S slide
   CHECK(pulse.comes_back().amplitude == Approx(1.0).margin(0.05));

@@ -54,8 +54,8 @@ TEST_CASE("The counter of allocations sees new, malloc and Eigen's kind", "[mpm]
 
 TEST_CASE("A step of any scheme allocates nothing unless points are binned", "[mpm]") {
   FlowConfig config = on_ground();
-  config.basis = GENERATE(BasisKind::linear, BasisKind::gimp, BasisKind::quadratic,
-                          BasisKind::cubic);
+  config.basis =
+      GENERATE(BasisKind::linear, BasisKind::gimp, BasisKind::quadratic, BasisKind::cubic);
   config.update = GENERATE(Update::symplectic, Update::usf, Update::musl);
   config.transfer = GENERATE(Transfer::apic, Transfer::tpic, Transfer::aflip, Transfer::flip,
                              Transfer::pic, Transfer::fmpm);

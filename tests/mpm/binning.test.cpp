@@ -1,7 +1,7 @@
 #include "mpm/grid/binning.hpp"
 
-#include "mpm/kernels/basis.hpp"
 #include "mpm/grid/local_grid.hpp"
+#include "mpm/kernels/basis.hpp"
 
 #include <algorithm>
 #include <random>

@@ -1,4 +1,5 @@
 #include "mpm/solver/energy_watch.hpp"
+
 #include "tests/mpm/scene.hpp"
 #include "tests/support/scratch.hpp"
 
@@ -51,8 +52,8 @@ TEST_CASE("Energy from nowhere is told from what was brought in", "[mpm]") {
   now.damping_work = 31.0;  // 19 of 100 J
   CHECK_NOTHROW(watch.look(now, false));
   now.damping_work = 29.0;
-  CHECK_THROWS_WITH(watch.look(now, false), Contains("21 J of energy have come from nowhere") &&
-                                                Contains("brought 100 J"));
+  CHECK_THROWS_WITH(watch.look(now, false),
+                    Contains("21 J of energy have come from nowhere") && Contains("brought 100 J"));
   now.friction_work = 25.0;  // a fall that other dissipation makes up for
   CHECK_NOTHROW(watch.look(now, false));
   now.plastic_work = 51.0;

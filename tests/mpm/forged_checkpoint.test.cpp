@@ -79,7 +79,8 @@ struct Forgery {
   State good = state_of(scene);
 
   /// What is said of it after `change` of the simulation and the run's memory.
-  [[nodiscard]] std::string with(const std::function<void(Simulation<2>&, RunState&)>& change) const {
+  [[nodiscard]] std::string with(
+      const std::function<void(Simulation<2>&, RunState&)>& change) const {
     State state = good;
     change(state.s, state.run);
     write_checkpoint(folder / "c", state.s, state.run);

@@ -5,7 +5,6 @@
 #include "tests/support/scratch.hpp"
 
 #include <fstream>
-
 #include <sys/stat.h>
 
 #include <catch2/catch.hpp>
@@ -106,7 +105,8 @@ TEST_CASE("A grid is not larger than its file, and marks of editors are no heigh
   const auto error = [](const std::string& from, const std::string& to) {
     return input_error([&] { read_text(replaced(kGrid, from, to)); });
   };
-  CHECK_THAT(error("ncols 4", "ncols 100000"), Contains("100000 x 3 heights (the file is too short"));
+  CHECK_THAT(error("ncols 4", "ncols 100000"),
+             Contains("100000 x 3 heights (the file is too short"));
   CHECK_THAT(error("ncols 4", "ncols 1e9"), Contains("ncols"));
   CHECK(read_text(std::string("\xEF\xBB\xBF") + kGrid).columns == 4);
   CHECK_THAT(error("6 7",

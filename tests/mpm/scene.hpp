@@ -1,9 +1,9 @@
 #pragma once
 #include "core/conventions.hpp"
-#include "mpm/solver/balance.hpp"
-#include "mpm/solver/checkpoint.hpp"
 #include "mpm/run/flow.hpp"
 #include "mpm/run/load.hpp"
+#include "mpm/solver/balance.hpp"
+#include "mpm/solver/checkpoint.hpp"
 
 #include <random>
 #include <string>

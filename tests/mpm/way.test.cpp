@@ -84,8 +84,8 @@ TEST_CASE("usf cannot begin a step again and says so", "[mpm]") {
   FlowConfig config = falling(1e6);
   config.update = Update::usf;
   Run run(block(1e5), config);
-  CHECK_THAT(numerics_error(run, 1), Contains("points would move by more than a cell") &&
-                                         Contains("update symplectic"));
+  CHECK_THAT(numerics_error(run, 1),
+             Contains("points would move by more than a cell") && Contains("update symplectic"));
   config.gravity = 50.0;
   Run tame(block(1e5), config);
   CHECK(numerics_error(tame, 5) == "(no NumericsError)");

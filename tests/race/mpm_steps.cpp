@@ -3,9 +3,9 @@
 
 #include <catch2/catch.hpp>
 
-/// Steps that reach every parallel loop of mpm/: each basis with each way to update and to transfer,
-/// walls, absorbing planes, sleep, outlet and loads, and binning in between. There is nothing to
-/// check but that the detector keeps still.
+/// Steps that reach every parallel loop of mpm/: each basis with each way to update and to
+/// transfer, walls, absorbing planes, sleep, outlet and loads, and binning in between. There is
+/// nothing to check but that the detector keeps still.
 using namespace flowslide;
 using namespace flowslide::mpm;
 

@@ -1,7 +1,7 @@
-#include "report/composition.hpp"
-#include "report/facts.hpp"
 #include "report/outcome.hpp"
 
+#include "report/composition.hpp"
+#include "report/facts.hpp"
 #include "tests/report/dam_case.hpp"
 
 #include <catch2/catch.hpp>
@@ -17,11 +17,9 @@ struct Block {
   FinalState end;
 
   Block(std::array<double, 2> shake, std::array<double, 2> flow, double moved = 1.0) {
-    p.materials = {{.name = "embankment", .law = "mohr_coulomb", .parameters = {}},
-                   {.name = "liquefied 1",
-                    .law = "residual_strength",
-                    .parameters = {},
-                    .liquefied = true}};
+    p.materials = {
+        {.name = "embankment", .law = "mohr_coulomb", .parameters = {}},
+        {.name = "liquefied 1", .law = "residual_strength", .parameters = {}, .liquefied = true}};
     for (int i = 0; i < 40; ++i)
       for (int j = 0; j < 20; ++j) {
         const bool moves = j >= 10;

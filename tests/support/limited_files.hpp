@@ -69,8 +69,9 @@ void check_limited_files(F&& write, int limits = 40) {
   for (int i = 0; i <= limits; ++i) {
     // The last steps are single bytes, where only what is written at the very end is lost.
     const std::uint64_t limit =
-        i + 8 > limits ? largest - std::min<std::uint64_t>(largest, limits - i)
-                       : largest * static_cast<std::uint64_t>(i) / static_cast<std::uint64_t>(limits);
+        i + 8 > limits
+            ? largest - std::min<std::uint64_t>(largest, limits - i)
+            : largest * static_cast<std::uint64_t>(i) / static_cast<std::uint64_t>(limits);
     CAPTURE(limit, largest);
     const Scratch folder;
     const int code = with_limited_files(limit, [&] { write(folder.path()); });

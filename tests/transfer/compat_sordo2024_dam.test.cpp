@@ -1,8 +1,8 @@
 #include "core/units.hpp"
 #include "importers/opensees.hpp"
+#include "tests/support/paths.hpp"
 #include "tests/support/scratch.hpp"
 #include "transfer/sordo2024/compat_sordo2024.hpp"
-#include "tests/support/paths.hpp"
 
 #include <algorithm>
 #include <cmath>

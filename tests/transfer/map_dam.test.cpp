@@ -1,6 +1,6 @@
 #include "importers/opensees.hpp"
-#include "transfer/map/map_state.hpp"
 #include "tests/support/paths.hpp"
+#include "transfer/map/map_state.hpp"
 
 #include <cmath>
 #include <filesystem>

@@ -1,7 +1,7 @@
 #include "core/check.hpp"
 #include "importers/opensees.hpp"
-#include "transfer/zone/zone.hpp"
 #include "tests/support/paths.hpp"
+#include "transfer/zone/zone.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -113,7 +113,8 @@ TEST_CASE("Loads are held against the weight of the soil") {
   const auto with = [](double pressure, double shear) {
     return ask(
         [&](FlowConfig& c) {
-          c.tractions = {{.from = {10.0, 30.0}, .to = {50.0, 30.0}, .pressure = pressure, .shear = shear}};
+          c.tractions = {
+              {.from = {10.0, 30.0}, .to = {50.0, 30.0}, .pressure = pressure, .shear = shear}};
         },
         check_tractions);
   };
@@ -240,8 +241,9 @@ TEST_CASE("Soils and water of the finite elements have plausible numbers") {
   // With a void ratio of 0.3 grains of 2.13 t/m3, with 2.5 of 4.05 t/m3.
   CHECK_THAT(with([](FemConfig&, M& x) { x.void_ratio = 0.3; }).warnings, Contains("grains"));
   CHECK_THAT(with([](FemConfig&, M& x) { x.void_ratio = 9.0; }).errors, Contains("9700 kg/m3"));
-  CHECK_THAT(with([](FemConfig&, M& x) { x.laws.of<LinearElastic>()->youngs_modulus = 20.0; }).errors,
-             Contains("youngs_modulus"));
+  CHECK_THAT(
+      with([](FemConfig&, M& x) { x.laws.of<LinearElastic>()->youngs_modulus = 20.0; }).errors,
+      Contains("youngs_modulus"));
   CHECK_THAT(with([](FemConfig& c, M&) { c.water->bulk_modulus = 2.2e3; }).errors,
              Contains("water.bulk_modulus"));
   CHECK_THAT(with([](FemConfig& c, M&) { c.water->density = 1.0; }).errors,
@@ -373,10 +375,8 @@ TEST_CASE("Every element of a transfer has a material, and soil that liquefies a
   zone.zone = ZoneExtent::automatic;
   const auto with = [&](auto change) {
     MapConfig c = map_config();
-    c.materials["tailings"].liquefied = ResidualStrength::Params{.youngs_modulus = 20e6,
-                                                                 .poisson_ratio = 0.45,
-                                                                 .strength = {},
-                                                                 .soft_strength = {}};
+    c.materials["tailings"].liquefied = ResidualStrength::Params{
+        .youngs_modulus = 20e6, .poisson_ratio = 0.45, .strength = {}, .soft_strength = {}};
     Findings control, found;
     check_map_names(c, dam(), kSoils, zone, control);
     CHECK(control.errors.empty());

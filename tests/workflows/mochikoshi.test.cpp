@@ -2,8 +2,8 @@
 #include "fem/build_model.hpp"
 #include "fem/gravity.hpp"
 #include "section/mesh_section.hpp"
-#include "workflows/stages/fem_run.hpp"
 #include "tests/support/paths.hpp"
+#include "workflows/stages/fem_run.hpp"
 
 #include <catch2/catch.hpp>
 

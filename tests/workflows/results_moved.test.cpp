@@ -25,12 +25,18 @@ const std::string kDam = test::fixture("opensees/dam-rio270/");
 const std::string kImport =
     "schema: 1\nname: imports\nstages:\n"
     "  shake:\n    uses: import.opensees\n    with:\n"
-    "      mesh: {nodes: " + kDam + "nodeinfo.dat, elements: " + kDam + "elementinfo.dat}\n"
+    "      mesh: {nodes: " +
+    kDam + "nodeinfo.dat, elements: " + kDam +
+    "elementinfo.dat}\n"
     "      materials: {embankment: {tag: 167, density: 1690 kg/m3}, tailings: {tag: 168, density: "
     "1870 kg/m3}, foundation: {tag: 170, density: 1900 kg/m3}}\n"
     "      units: {length: m, time: s, stress: kPa}\n"
-    "      gravity: {stress: " + kDam + "Gstress.out, strain: " + kDam + "Gstrain.out, "
-    "pore_pressure: " + kDam + "GporePressure.out}\n"
+    "      gravity: {stress: " +
+    kDam + "Gstress.out, strain: " + kDam +
+    "Gstrain.out, "
+    "pore_pressure: " +
+    kDam +
+    "GporePressure.out}\n"
     "  mesh:\n    uses: import.mesh\n    with: {gmsh: square.msh}\n"
     "  zone:\n    uses: transfer.zone\n    in: {history: shake.history}\n"
     "    with: {when: gravity, zone: all, liquefiable: [tailings], pond_surface: 30 m, "

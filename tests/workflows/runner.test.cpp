@@ -101,7 +101,7 @@ TEST_CASE("result.json holds what stages found and what each of them took", "[wo
   bench.run({"stages.sum.with.factor=2"});
   const json r = bench.result();
   for (const char* name : {"runout_m", "wall_s", "stages", "headlines"}) CHECK(r.contains(name));
-  CHECK(r["runout_m"] == 1.5);  // both numbers say the same
+  CHECK(r["runout_m"] == 1.5);                 // both numbers say the same
   CHECK_FALSE(r.contains("transfer_time_s"));  // no stage of this workflow knows of it
   CHECK(r["stages"]["one"]["cached"] == true);
   CHECK(r["stages"]["sum"]["cached"] == false);

@@ -58,8 +58,8 @@ std::vector<std::string> sources_of(const std::string& name, const MapMaterial& 
 /// The box with its open sides far away.
 Box box_of(const SectionBox& box);
 
-/// Relations that ranges cannot express: no source twice, one law per material, box in order, c_soft
-/// given where soil may liquefy. Throws InputError.
+/// Relations that ranges cannot express: no source twice, one law per material, box in order,
+/// c_soft given where soil may liquefy. Throws InputError.
 void check(const MapConfig& config);
 
 template <>

@@ -32,8 +32,8 @@ SourceSet gather(const MappedState& state, const SeedSet& seeds, UseElement use_
     if (!use_element(e)) continue;
     const std::array<Vec2, 4> q = corners(state.mesh, state.positions, e);
     const auto mid_line = [&q](int a, int b, int c, int d) {
-      return 0.5 * hypot(q[a][0] + q[b][0] - q[c][0] - q[d][0],
-                              q[a][1] + q[b][1] - q[c][1] - q[d][1]);
+      return 0.5 *
+             hypot(q[a][0] + q[b][0] - q[c][0] - q[d][0], q[a][1] + q[b][1] - q[c][1] - q[d][1]);
     };
     source_of[e] = static_cast<std::int32_t>(s.sources.size());
     s.sources.push_back({centroid(q), std::max(mid_line(1, 2, 0, 3), mid_line(2, 3, 0, 1))});

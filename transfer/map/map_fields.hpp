@@ -44,7 +44,6 @@ struct MapCounts {
 /// family, before any return; history "plastic_strain", "strength", "soft_strength" [Pa], "r_u".
 /// Strengths are 0 on points whose law does not read them.
 ParticleSet map_fields(const MappedState& state, const SeedSet& seeds, const MapGroups& groups,
-                       const MapConfig& config, const Progress& progress,
-                       MapCounts& counts);
+                       const MapConfig& config, const Progress& progress, MapCounts& counts);
 
 }  // namespace flowslide

@@ -17,8 +17,8 @@
 namespace flowslide {
 
 enum class ZoneExtent { automatic, all, line, polygon, liquefied };
-inline constexpr std::array<std::string_view, 5> kZoneExtents{"automatic", "all", "line",
-                                                              "polygon", "liquefied"};
+inline constexpr std::array<std::string_view, 5> kZoneExtents{"automatic", "all", "line", "polygon",
+                                                              "liquefied"};
 /// Whether the extent is found from r_u, and not given.
 constexpr bool found_from_r_u(ZoneExtent z) {
   return z == ZoneExtent::automatic || z == ZoneExtent::liquefied;
@@ -49,13 +49,13 @@ struct ColumnConfig {
 /// What decides the transfer time.
 struct TransferRuleConfig {
   std::vector<std::string> liquefiable;  ///< materials by name
-  double pond_surface = kUnset;  ///< y of the pond surface, datum of depths [m]
+  double pond_surface = kUnset;          ///< y of the pond surface, datum of depths [m]
   SectionBox box;
   DepthWindows windows;  ///< see windows_or_all
   DepthCoordinates depth_coordinates = DepthCoordinates::original;
   RuConfig r_u;
   ColumnConfig columns;
-  std::vector<int> base_nodes;                 ///< node tags; the lowest nodes if empty
+  std::vector<int> base_nodes;  ///< node tags; the lowest nodes if empty
   TransferTimeConfig transfer;
 };
 

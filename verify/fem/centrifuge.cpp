@@ -68,7 +68,8 @@ Outcome shake(double amplitude, double slope) {
     if (s.state.step % 16 == 0) refresh_moduli(s);
     if (!is_set(at_end) && s.state.time > kCycles / kFrequency + 1.0) {
       at_end = shift();
-      for (PM4Sand::Constants& law : std::get<fem::LawConstants<PM4Sand>>(s.laws).of) law.post_shake = true;
+      for (PM4Sand::Constants& law : std::get<fem::LawConstants<PM4Sand>>(s.laws).of)
+        law.post_shake = true;
     }
     advance(s, {ground(amplitude, s.state.time), ground(amplitude, s.state.time + s.dt)});
     for (std::size_t k = 0; k < kDepths.size(); ++k) {

@@ -137,8 +137,7 @@ struct Mandel {
     double sum = 0.0;
     for (int i = 0; i < 100; ++i) {
       const double r = root(i);
-      sum += sin(r) / (r - sin(r) * cos(r)) * (cos(r * x) - cos(r)) *
-             exp(-r * r * T);
+      sum += sin(r) / (r - sin(r) * cos(r)) * (cos(r * x) - cos(r)) * exp(-r * r * T);
     }
     return 2.0 * sum;
   }

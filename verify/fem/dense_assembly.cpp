@@ -38,7 +38,8 @@ Operators assemble(const Solver& s) {
 
 Trial deform(const Solver& s, const Vector& du) {
   const Elements& g = s.layout.elements;
-  Trial r{s.state.stress, std::get<fem::LawStates<PM4Sand>>(s.state.laws).of, Vector::Zero(du.size())};
+  Trial r{s.state.stress, std::get<fem::LawStates<PM4Sand>>(s.state.laws).of,
+          Vector::Zero(du.size())};
   for (std::size_t e = 0; e < g.size(); ++e) {
     StrainIncrement<2> de{};
     double hx = s.state.hourglass_x[e], hy = s.state.hourglass_y[e];
@@ -50,8 +51,8 @@ Trial deform(const Solver& s, const Vector& du) {
       hx += g.gamma[i][e] * ux;
       hy += g.gamma[i][e] * uy;
     }
-    const auto update =
-        PM4Sand::update(fem::constants_of<PM4Sand>(s, s.layout.material[e]), r.sand[e], r.stress[e], de);
+    const auto update = PM4Sand::update(fem::constants_of<PM4Sand>(s, s.layout.material[e]),
+                                        r.sand[e], r.stress[e], de);
     r.stress[e] = update.stress;
     r.sand[e] = update.state;
     const double G = s.hourglass_shear[e], V = g.volume[e];

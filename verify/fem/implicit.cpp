@@ -1,6 +1,6 @@
-#include "core/elementary.hpp"
 #include "fem/implicit.hpp"
 
+#include "core/elementary.hpp"
 #include "verify/fem/dense_assembly.hpp"
 #include "verify/fem/list.hpp"
 #include "verify/fem/scene.hpp"

@@ -24,8 +24,8 @@ inline SectionMesh section(const Rectangle& r) {
     for (int i = 0; i <= r.columns; ++i) {
       const bool inner = i > 0 && i < r.columns && j > 0 && j < r.rows;
       const double shift = inner ? r.distortion : 0.0;
-      s.mesh.nodes.push_back({(i + shift * sin(3.0 * i + 5.0 * j)) * dx,
-                              (j + shift * cos(4.0 * i + 2.0 * j)) * dy});
+      s.mesh.nodes.push_back(
+          {(i + shift * sin(3.0 * i + 5.0 * j)) * dx, (j + shift * cos(4.0 * i + 2.0 * j)) * dy});
       s.mesh.node_tags.push_back(1 + j * nx + i);
     }
   for (int j = 0; j < r.rows; ++j)

@@ -1,8 +1,8 @@
 #include "core/elementary.hpp"
 #include "core/temporary_folder.hpp"
+#include "model/history.hpp"
 #include "verify/fem/list.hpp"
 #include "verify/fem/scene.hpp"
-#include "model/history.hpp"
 
 #include <algorithm>
 #include <random>
@@ -259,9 +259,7 @@ Outcome hostile(std::mt19937& random) {
   const auto uniform = [&](double a, double b) {
     return a + (b - a) * static_cast<double>(random()) / 4294967296.0;
   };
-  const auto log_uniform = [&](double a, double b) {
-    return exp(uniform(log(a), log(b)));
-  };
+  const auto log_uniform = [&](double a, double b) { return exp(uniform(log(a), log(b))); };
   const double height = log_uniform(0.5, 30.0);
   SectionMesh mesh = section({.columns = 4,
                               .rows = 4,

@@ -18,9 +18,8 @@ constexpr double kLongest = 12.5, kLook = 0.3;     ///< [sqrt(height / g)]
 constexpr double kQuiet = 1e-4;                    ///< of the largest kinetic energy: at rest
 
 MaterialSpec grains(const DryColumn& c, double height) {
-  std::map<std::string, double> v{
-      {"youngs_modulus", kStiffness * kDensity * kGravity * height},
-      {"poisson_ratio", c.poisson_ratio}};
+  std::map<std::string, double> v{{"youngs_modulus", kStiffness * kDensity * kGravity * height},
+                                  {"poisson_ratio", c.poisson_ratio}};
   if (c.law == Friction::rate) {
     v.merge(std::map<std::string, double>{{"mu_static", c.friction},
                                           {"mu_limit", c.friction + kRise},
@@ -31,8 +30,7 @@ MaterialSpec grains(const DryColumn& c, double height) {
   }
   const double plane = asin(c.friction), principal = atan2(c.friction, 1.0);
   v.merge(std::map<std::string, double>{
-      {"cohesion", 0.0},
-      {"friction_angle", c.law == Friction::coulomb_plane ? plane : principal}});
+      {"cohesion", 0.0}, {"friction_angle", c.law == Friction::coulomb_plane ? plane : principal}});
   return material("mohr_coulomb", v);
 }
 
@@ -40,9 +38,7 @@ template <int Dim>
 ParticleSet lattice(const DryColumn& c, double height, double spacing) {
   ParticleSet p;
   p.dim = Dim;
-  const auto count = [&](double side) {
-    return static_cast<int>(std::lround(side / spacing));
-  };
+  const auto count = [&](double side) { return static_cast<int>(std::lround(side / spacing)); };
   const double across = c.shape == Shape::round ? c.length : c.width;
   const int rows = Dim == 2 ? 1 : count(across);
   const double k0 = c.poisson_ratio / (1.0 - c.poisson_ratio);

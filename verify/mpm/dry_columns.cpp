@@ -1,5 +1,6 @@
-#include "core/elementary.hpp"
 #include "verify/mpm/dry_columns.hpp"
+
+#include "core/elementary.hpp"
 #include "verify/mpm/list.hpp"
 
 #include <algorithm>
@@ -40,8 +41,8 @@ std::vector<Check> verify_columns_short(std::string_view name) {
   CheckList checks(name);
   const Deposit coarse = collapse(sand(1.0), 16), fine = collapse(sand(1.0), 32);
   compare(checks, "a1", fine, plane_front(1.0), plane_height(1.0));
-  // The front settles as the grid is refined; with apic, whose viscosity goes with the cell, it does
-  // so more slowly: the control. The target of 5 % for one halving stands in columns_plane.
+  // The front settles as the grid is refined; with apic, whose viscosity goes with the cell, it
+  // does so more slowly: the control. The target of 5 % for one halving stands in columns_plane.
   DryColumn crawling = sand(1.0);
   crawling.transfer = Transfer::apic;
   const double change = fine.front / coarse.front - 1.0;

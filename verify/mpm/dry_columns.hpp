@@ -18,12 +18,12 @@ enum class Friction {
 struct DryColumn {
   Shape shape = Shape::plane;
   Friction law = Friction::rate;
-  double aspect = 1.0;             ///< height over length or radius
-  double length = 0.1;             ///< [m]
-  double width = 0.0;              ///< of the channel [m]
-  double friction = 0.0;           ///< tan of the angle measured; of the ground too [-]
-  double wall_friction = 0.0;      ///< of the channel's sides [-]
-  double grain = 0.0;              ///< [m]
+  double aspect = 1.0;         ///< height over length or radius
+  double length = 0.1;         ///< [m]
+  double width = 0.0;          ///< of the channel [m]
+  double friction = 0.0;       ///< tan of the angle measured; of the ground too [-]
+  double wall_friction = 0.0;  ///< of the channel's sides [-]
+  double grain = 0.0;          ///< [m]
   double poisson_ratio = 0.3;
   Transfer transfer = Transfer::aflip;
 };

@@ -52,8 +52,7 @@ MaterialSpec draw_material(Draw& draw) {
                                          {"cohesion", strength},
                                          {"friction_angle", angle}});
     case 4:
-      return material("newtonian_fluid",
-                      {{"bulk_modulus", young}, {"viscosity", draw.about(1.0)}});
+      return material("newtonian_fluid", {{"bulk_modulus", young}, {"viscosity", draw.about(1.0)}});
     case 5:
       return material("mu_i", {{"youngs_modulus", young},
                                {"poisson_ratio", nu},

@@ -16,12 +16,11 @@ double bending_frequency(BasisKind basis, VolumeAverage average) {
   constexpr double k = 4.7300407, sigma = 0.9825022;  // first root of cos(k) cosh(k) = 1
   const double beta = k / length;
   const auto shape = [&](double x) {
-    return std::cosh(beta * x) + cos(beta * x) -
-           sigma * (std::sinh(beta * x) + sin(beta * x));
+    return std::cosh(beta * x) + cos(beta * x) - sigma * (std::sinh(beta * x) + sin(beta * x));
   };
   const auto slope = [&](double x) {
-    return beta * (std::sinh(beta * x) - sin(beta * x) -
-                   sigma * (std::cosh(beta * x) + cos(beta * x)));
+    return beta *
+           (std::sinh(beta * x) - sin(beta * x) - sigma * (std::cosh(beta * x) + cos(beta * x)));
   };
   ParticleSet p;
   p.materials = {elastic(young, nu)};

@@ -42,8 +42,7 @@ Slide slide(double turn, double mu) {
   config.ground.friction = mu;
   Trial trial(p, config);
   for (int d = 0; d < 2; ++d)
-    trial.sim.gravity[d] =
-        kGravity * (sin(kSlope) * along[d] - cos(kSlope) * normal[d]);
+    trial.sim.gravity[d] = kGravity * (sin(kSlope) * along[d] - cos(kSlope) * normal[d]);
   const auto centre = [&] {
     std::array<double, 2> sum{};
     const Points<2>& q = trial.sim.points;

@@ -24,9 +24,7 @@ struct Wave {
   [[nodiscard]] double u(double x, double t) const {
     return amplitude * sin(k * x) * sin(speed * k * t);
   }
-  [[nodiscard]] double start_velocity(double x) const {
-    return amplitude * speed * k * sin(k * x);
-  }
+  [[nodiscard]] double start_velocity(double x) const { return amplitude * speed * k * sin(k * x); }
   [[nodiscard]] double body(double x, double t) const {
     const double f = 1.0 + amplitude * k * cos(k * x) * sin(speed * k * t);
     return k * k * u(x, t) * (0.5 * young / density * (1.0 + 1.0 / (f * f)) - speed * speed);
@@ -130,10 +128,11 @@ struct RingErrors {
 RingErrors turn_ring(double h, int points_per_direction, Transfer transfer) {
   ParticleSet p;
   p.materials = {neo_hookean(Ring::young, Ring::nu)};
-  fill(p, {-1.28, -1.28, 1.28, 1.28}, h / points_per_direction, Ring::density, 0, [](double x, double y) {
-    const double r = hypot(x, y);
-    return r > Ring::inner && r < Ring::outer;
-  });
+  fill(p, {-1.28, -1.28, 1.28, 1.28}, h / points_per_direction, Ring::density, 0,
+       [](double x, double y) {
+         const double r = hypot(x, y);
+         return r > Ring::inner && r < Ring::outer;
+       });
   std::vector<Ring> exact;
   for (std::size_t i = 0; i < p.size(); ++i) {
     exact.emplace_back(p.position[i][0], p.position[i][1]);

@@ -1,6 +1,6 @@
-#include "core/elementary.hpp"
 #include "mpm/kernels/rotation.hpp"
 
+#include "core/elementary.hpp"
 #include "verify/mpm/list.hpp"
 #include "verify/mpm/trial.hpp"
 

@@ -39,8 +39,8 @@ double displacement(double factor, double h) {
   const Points<2>& q = trial.sim.points;
   for (std::size_t i = 0; i < q.size(); ++i) {
     const auto start = static_cast<std::size_t>(q.index[i]);
-    largest = std::max(
-        largest, hypot(q.x[0][i] - p.position[start][0], q.x[1][i] - p.position[start][1]));
+    largest = std::max(largest,
+                       hypot(q.x[0][i] - p.position[start][0], q.x[1][i] - p.position[start][1]));
   }
   return largest;
 }

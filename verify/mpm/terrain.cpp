@@ -1,7 +1,7 @@
 #include "core/conventions.hpp"
 #include "core/elementary.hpp"
-#include "mpm/solver/balance.hpp"
 #include "mpm/run/load.hpp"
+#include "mpm/solver/balance.hpp"
 #include "verify/mpm/list.hpp"
 #include "verify/mpm/trial.hpp"
 
@@ -99,8 +99,7 @@ std::vector<Check> verify_terrain(std::string_view name) {
   for (const Case& c : {Case{30, 0, 0.3}, Case{30, 30, 0.3}, Case{30, 225, 0.3}, Case{55, 20, 0.3},
                         Case{30, 30, 0.0}}) {
     const double angle = c.degrees * kPi / 180.0;
-    const double exact =
-        0.5 * kGravity * (sin(angle) - c.friction * cos(angle)) * kEnd * kEnd;
+    const double exact = 0.5 * kGravity * (sin(angle) - c.friction * cos(angle)) * kEnd * kEnd;
     const auto [down, across, away] = slide(angle, c.direction * kPi / 180.0, c.friction);
     const std::string label =
         fmt::format("{}_deg_towards_{}_mu_{}", c.degrees, c.direction, c.friction);

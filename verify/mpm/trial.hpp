@@ -1,8 +1,8 @@
 #pragma once
 #include "core/conventions.hpp"
-#include "mpm/solver/balance.hpp"
 #include "mpm/run/flow_config.hpp"
 #include "mpm/run/load.hpp"
+#include "mpm/solver/balance.hpp"
 
 #include <map>
 #include <string>

@@ -1,6 +1,6 @@
 #include "core/conventions.hpp"
-#include "mpm/solver/balance.hpp"
 #include "mpm/run/load.hpp"
+#include "mpm/solver/balance.hpp"
 #include "verify/mpm/dam.hpp"
 #include "verify/mpm/list.hpp"
 

@@ -19,9 +19,9 @@ enum class Action {
 
 struct Decision {
   Action action = Action::run;
-  std::string why;                    ///< "settings changed (c_soft_ratio 1 -> 0.5)"
-  std::string key;                    ///< empty while undecided
-  std::optional<StageRecord> record;  ///< of the result to reuse
+  std::string why;                         ///< "settings changed (c_soft_ratio 1 -> 0.5)"
+  std::string key;                         ///< empty while undecided
+  std::optional<StageRecord> record;       ///< of the result to reuse
   std::vector<HashedFile> files = {};      ///< of the result to reuse, just read
   std::vector<std::string> problems = {};  ///< what is wrong with a result that cannot be reused
   std::vector<std::string> warnings = {};  ///< of the result to reuse, and of the settings

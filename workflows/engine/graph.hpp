@@ -20,7 +20,7 @@ struct WorkflowStage {
   std::string name;
   StageType type;
   PreparedStage prepared;
-  std::vector<Link> inputs;  ///< in the order of type.inputs
+  std::vector<Link> inputs;                ///< in the order of type.inputs
   std::any preview = {};                   ///< what its preview returned; empty if it has none
   std::vector<std::string> warnings = {};  ///< what is odd about its settings and their files
 };

@@ -13,7 +13,7 @@ namespace flowslide {
 struct StageInputs {
   std::map<std::string, std::string> hashes;  ///< by port
   PortPaths paths;
-  std::vector<HashedFile> files;  ///< below these paths, as they were when last read
+  std::vector<HashedFile> files;           ///< below these paths, as they were when last read
   std::vector<std::string> warnings = {};  ///< of the stages before it
   std::vector<EarlierStage> earlier = {};
 };

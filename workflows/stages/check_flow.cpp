@@ -105,8 +105,8 @@ void check_tractions(const FlowConfig& flow, const Soil& soil, Findings& found) 
   if (soil.all.empty()) return;
   const double weight = kUnitWeight * soil.all.height();
   for (std::size_t i = 0; i < flow.tractions.size(); ++i) {
-    const double load = std::max(std::abs(flow.tractions[i].pressure),
-                                 std::abs(flow.tractions[i].shear));
+    const double load =
+        std::max(std::abs(flow.tractions[i].pressure), std::abs(flow.tractions[i].shear));
     if (load > kImpossible * weight)
       refuse(found,
              "tractions[{}]: {:.3g} Pa, more than {:g} times the weight of {:g} m of soil (nothing "

@@ -87,9 +87,9 @@ struct ReportStage {
           "workflow, and `flowslide convert` mpm.h5 for ParaView, docs/guide/valley.md");
     for (const auto& [name, region] : config.regions)
       if (region.outline.size() < 3)
-        found.errors.push_back(fmt::format(
-            "regions.{}: {} corners (a region needs three or more) give its outline", name,
-            region.outline.size()));
+        found.errors.push_back(
+            fmt::format("regions.{}: {} corners (a region needs three or more) give its outline",
+                        name, region.outline.size()));
     if (config.toe && p.flow && p.map && p.section && !p.materials.empty())
       check_toe(*config.toe, *p.flow, soil_of(*p.section, *p.map, p.materials), found);
     return p;
