@@ -125,8 +125,9 @@ TEST_CASE("PM4Sand's generic calibration has the manual's cyclic strength", "[pm
   // 10 % more stress.
   const auto [Dr, G0, hpo, crr] = GENERATE(table<double, double, double, double>(
       {{0.35, 476.0, 0.53, 0.0899}, {0.55, 677.0, 0.40, 0.1472}, {0.75, 890.0, 0.63, 0.3123}}));
-  const auto cycles = [&](double csr) {
-    PointUnderTest point = pm4sand_point(pm4sand_default(Dr, G0, hpo), at_rest(kAtmosphere));
+  const PM4Sand::Params sand = pm4sand_default(Dr, G0, hpo);
+  const auto cycles = [&sand](double csr) {
+    PointUnderTest point = pm4sand_point(sand, at_rest(kAtmosphere));
     SimpleShear shear;
     shear.strain_step = 1e-5;
     shear.reversal_stress = csr * kAtmosphere;
