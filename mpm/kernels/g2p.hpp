@@ -131,7 +131,7 @@ template <int Dim, class Basis, Transfer kTransfer>
           factor[e] = inverse / s.moment(e);
       });
     }
-    const auto take = [&](const auto& fetch) [[gnu::always_inline]] {
+    const auto take = [&](const auto& fetch) __attribute__((always_inline)) {
       unroll<Dim>([&](auto d) {
         const NodeSums<Dim> sums = sum_nodes<Dim, Basis>(s, fetch, velocity.v[d]);
         unroll<Dim>([&](auto e) {

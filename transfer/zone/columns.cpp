@@ -27,7 +27,7 @@ std::vector<std::int32_t> nodes_of(const QuadMesh& mesh, std::span<const std::in
     for (const std::int32_t n : mesh.elements[static_cast<std::size_t>(e)]) nodes.push_back(n);
   }
   std::ranges::sort(nodes);
-  nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
 }
 
@@ -44,7 +44,7 @@ NodeNeighbours soil_neighbours(const QuadMesh& mesh, std::span<const std::int32_
   }
   for (std::vector<std::int32_t>& nodes : adjacent) {
     std::ranges::sort(nodes);
-    nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   }
   return adjacent;
 }

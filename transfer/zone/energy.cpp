@@ -28,7 +28,7 @@ std::vector<std::int32_t> lowest_nodes(const QuadMesh& mesh,
     for (const std::int32_t n : mesh.elements[static_cast<std::size_t>(e)]) nodes.push_back(n);
   }
   std::ranges::sort(nodes);
-  nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   for (const std::int32_t n : nodes) {
     low = std::min(low, mesh.nodes[static_cast<std::size_t>(n)][1]);
     high = std::max(high, mesh.nodes[static_cast<std::size_t>(n)][1]);
