@@ -7,10 +7,14 @@
 /// malloc and its kin in terms of what the C library calls them by itself, so that exactly one file
 /// of a program may include it. The sanitizers have an allocator of their own: with them nothing is
 /// counted.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define FLOWSLIDE_COUNTS_ALLOCATIONS 1
-#else
+#ifndef __has_feature  // clang's, where g++ defines names
+#define __has_feature(x) 0
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || \
+    __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
 #define FLOWSLIDE_COUNTS_ALLOCATIONS 0
+#else
+#define FLOWSLIDE_COUNTS_ALLOCATIONS 1
 #endif
 
 namespace flowslide::test {
