@@ -62,6 +62,15 @@ double modulus_of(const AnyMaterial& law) {
   return found == p.parameters.end() ? kUnset : found->second;
 }
 
+void judge_stiffness(const std::string& where, const FemMaterialConfig& m, Findings& found) {
+  ShakingLaws::each([&]<class M>() {
+    if (const auto& law = m.laws.of<M>())
+      if constexpr (requires { law->youngs_modulus; })
+        judge(where + ".youngs_modulus", law->youngs_modulus, 1e6, "MPa", kStiffness, kUnitHint,
+              found);
+  });
+}
+
 }  // namespace
 
 void check_densities(const std::vector<HistoryMaterial>& materials, Findings& found) {
@@ -97,12 +106,7 @@ void check_fem_soils(const FemConfig& fem, Findings& found) {
                       where, m.density, m.void_ratio),
           grains, 1.0, "kg/m3", kGrains, "density is that of grains and water together; check both",
           found);
-    ShakingLaws::each([&]<class M>() {
-      if (const auto& law = m.laws.of<M>())
-        if constexpr (requires { law->youngs_modulus; })
-          judge(where + ".youngs_modulus", law->youngs_modulus, 1e6, "MPa", kStiffness, kUnitHint,
-                found);
-    });
+    judge_stiffness(where, m, found);
   }
   if (fem.water) {
     judge("water.bulk_modulus", fem.water->bulk_modulus, 1e6, "MPa", kWaterStiffness,
