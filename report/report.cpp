@@ -1,5 +1,6 @@
 #include "report/report.hpp"
 
+#include "core/check.hpp"
 #include "core/files.hpp"
 #include "report/figures.hpp"
 #include "report/markdown.hpp"
@@ -23,10 +24,20 @@ void make_folder(const std::filesystem::path& folder) {
         folder.string(), error.message()));
 }
 
+/// Everything below indexes the zone by elements of the mesh.
+void check_zone(const LiquefactionZone& zone, std::size_t elements) {
+  validate(zone.r_u_element.size() == elements && zone.liquefied.size() == elements &&
+               zone.strength.size() == elements && zone.sigma_v0.size() == elements,
+           "the zone describes {} elements, the history has {} (they belong to different runs) "
+           "give the report the files of one run",
+           zone.liquefied.size(), elements);
+}
+
 }  // namespace
 
 ReportFacts write_report(const ReportInputs& in, const ReportConfig& config,
                          const std::filesystem::path& out, const Progress& progress) {
+  check_zone(in.zone, in.history.mesh().num_elements());
   const FinalState end = final_state(in.particles, in.flow, config);
   ReportFacts facts = compute_facts(in.zone, in.flow, end, config);
   facts.zone_shares = zone_shares(in.history.mesh(), in.zone);
