@@ -138,9 +138,9 @@ Lines schemes(int threads) {
       {"flip", Transfer::flip}, {"pic", Transfer::pic},   {"fmpm", Transfer::fmpm}};
   for (const auto& [basis_name, basis] : bases)
     for (const auto& [transfer_name, transfer] : transfers)
-      add(basis_name + "/" + transfer_name, [&](FlowConfig& c) {
-        c.basis = basis;
-        c.transfer = transfer;
+      add(basis_name + "/" + transfer_name, [kind = basis, way = transfer](FlowConfig& c) {
+        c.basis = kind;
+        c.transfer = way;
       });
   add("usf", [](FlowConfig& c) { c.update = Update::usf; });
   add("musl", [](FlowConfig& c) { c.update = Update::musl; });
