@@ -28,7 +28,8 @@ ParticleSet bar(double spacing) {
   const auto ny = static_cast<std::size_t>(std::lround(Bar::width / spacing));
   resize(p, nx * ny);
   for (std::size_t q = 0; q < p.size(); ++q) {
-    p.position[q] = {(double(q % nx) + 0.5) * spacing, (double(q / nx) + 0.5) * spacing, 0.0};
+    const std::size_t row = q / nx;
+    p.position[q] = {(double(q % nx) + 0.5) * spacing, (double(row) + 0.5) * spacing, 0.0};
     p.velocity[q] = {Bar::across[0] + Bar::amplitude * cos(kPi * p.position[q][0] / Bar::length),
                      Bar::across[1], 0.0};
     p.volume[q] = spacing * spacing;
