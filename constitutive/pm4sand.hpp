@@ -159,7 +159,8 @@ struct PM4Sand {
 
   /// The stress and state after `de` (engineering shear, zz ignored). The out-of-plane stress of
   /// the result is (xx + yy)/2, the law's own mean stress. Splitting `de` at any multiple of
-  /// max_strain_increment does not change the result. NaN in, NaN out.
+  /// max_strain_increment does not change the result. NaN in, NaN out; the same for a strain of
+  /// more than 1.
   [[nodiscard]] static Update update(const Constants& c, const State& old, const Stress<2>& sigma,
                                      const StrainIncrement<2>& de) noexcept;
 

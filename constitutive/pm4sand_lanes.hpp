@@ -15,7 +15,8 @@ namespace flowslide::pm4sand {
 /// Sub-steps are not made smaller than this strain; there the error is accepted.
 inline constexpr double kSmallestIncrement = 1e-9;
 /// Bounds the work of one call, whatever it is given.
-inline constexpr double kMaxSubSteps = 1e6;
+inline constexpr double kMaxSubSteps = 1e5;
+inline constexpr double kMostStrain = 1.0;
 
 /// Where integration stands with a point; alpha and z of its state are those of `at`.
 template <class T>
@@ -84,7 +85,7 @@ template <class T>
   r.done = select(taken, select(last, T(1.0), r.done + part), r.done);
   r.next = select(taken, clamp(part * change, r.smallest, r.largest),
                   max(part * min(change, T(0.8)), r.smallest));
-  return Outcome<decltype(last)>{taken, taken && low, r.done >= T(1.0)};
+  return Outcome<decltype(last)>{taken, taken && low, !(r.done < T(1.0))};
 }
 
 /// Lane `lane` of a struct of T, a struct of double: reads and writes it.
@@ -107,14 +108,16 @@ template <template <class> class Struct, class T>
 }
 
 /// The next task that takes any work, and the size of its increment; 0 at the end of all. A point
-/// that is not strained stays as it is, and what is not a number is handed on.
+/// that is not strained stays as it is; what is not a number is handed on, and made of more strain
+/// than any soil has in a step, which would take hours of sub-steps to the same end.
 template <class Next>
 double next_task(PM4Sand::Task& task, Next&& next) {
   while (next(task)) {
     const Stress<2>& sigma = *task.stress;
     const StrainIncrement<2>& de = task.increment;
     const double size = std::max({std::abs(de[0]), std::abs(de[1]), std::abs(de[3])});
-    if (!std::isfinite(sigma[0] + sigma[1] + sigma[3] + de[0] + de[1] + de[3]))
+    if (!std::isfinite(sigma[0] + sigma[1] + sigma[3] + de[0] + de[1] + de[3]) ||
+        size > kMostStrain)
       task.stress->v.fill(kUnset);
     else if (size != 0.0)
       return size;

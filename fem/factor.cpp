@@ -149,7 +149,7 @@ void BandFactor::set_block(std::int32_t i) {
     if (r >= n_ || c < 0 || c < r - w) return r == c ? 1.0 : 0.0;
     return rows_[static_cast<std::size_t>(r) * (w + 1) + (c - r + w)];
   };
-  double* left = &left_[static_cast<std::size_t>(i) * reach_];
+  double* left = left_.data() + static_cast<std::size_t>(i) * reach_;  // empty for a diagonal
   for (std::int32_t r = i; r < i + kBlock; ++r)
     for (std::int32_t c = i - reach_; c < i; ++c) *left++ = element(r, c);
   double* block = &blocks_[2 * kBlock * static_cast<std::size_t>(i)];
@@ -168,7 +168,7 @@ void BandFactor::solve(double* b) {
   double* x = work_.data() + reach_;
   for (std::int32_t u = 0; u < n_; ++u) x[position_[u]] = b[u];
   const auto left = [&](std::int32_t i, std::int32_t r) {
-    return &left_[static_cast<std::size_t>(i + r) * reach_];
+    return left_.data() + static_cast<std::size_t>(i + r) * reach_;
   };
   const auto block = [&](std::int32_t i) {
     return &blocks_[2 * kBlock * static_cast<std::size_t>(i)];

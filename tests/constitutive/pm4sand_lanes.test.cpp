@@ -132,3 +132,23 @@ TEST_CASE("PM4Sand's lanes do nothing without points", "[pm4sand]") {
   const PM4Sand::Work none = PM4Sand::update_all([](PM4Sand::Task&) { return false; });
   CHECK(none.sub_steps + none.rejected + none.floored == 0);
 }
+
+TEST_CASE("PM4Sand ends in time whatever state and strain it is given", "[pm4sand]") {
+  // What a forged checkpoint may hold; each took hours of sub-steps or never ended.
+  const PM4Sand::Constants soil = PM4Sand::constants(pm4sand_tailings());
+  const Stress<2> sigma = at_rest(1e5);
+  for (const double huge : {1e4, 1e100, 1e250, -1e300}) {
+    CAPTURE(huge);
+    const auto limit = static_cast<int>(pm4sand::kMaxSubSteps) + 2;  // rounding may leave a bit
+    for (const double strain : {1e-5, 0.9}) {
+      PM4Sand::State state = PM4Sand::initial_state(soil, sigma);
+      state.alpha.d = state.z.t = huge;
+      CHECK(PM4Sand::update(soil, state, sigma, {{strain, 0.0, 0.0, strain}}).sub_steps < limit);
+      state = PM4Sand::initial_state(soil, sigma);
+      state.void_ratio = state.z_cum = huge;
+      CHECK(PM4Sand::update(soil, state, sigma, {{strain, 0.0, 0.0, strain}}).sub_steps < limit);
+    }
+    const PM4Sand::State state = PM4Sand::initial_state(soil, sigma);
+    CHECK(std::isnan(PM4Sand::update(soil, state, sigma, {{huge, 0.0, 0.0, 0.0}}).stress[0]));
+  }
+}
