@@ -25,7 +25,7 @@ ParticleSet falling(double spacing) {
 FlowConfig settings() {
   FlowConfig c = free_space(0.5);
   c.gravity = 9.81;
-  c.ground.surface = {{0.0, 0.0}, {3.0, 0.5}};
+  c.ground.surface = {{0.0, -0.05}, {6.0, 0.0}};
   c.left_roller = 0.0;
   return c;
 }
@@ -50,7 +50,7 @@ TEST_CASE("Steps with all that an edge can be") {
   c.gravity = 9.81;
   c.absorbing.left = 0.0;
   c.absorbing.bottom = 0.0;
-  c.outlet.right = 6.1;
+  c.outlet.right = 5.9;
   c.sleep.emplace();
   c.sleep->after = 1e-3;
   TractionSettings load;
@@ -67,19 +67,21 @@ TEST_CASE("Steps with all that an edge can be") {
 }
 
 TEST_CASE("Soil that sleeps and wakes") {
-  ParticleSet p = falling(0.25);
-  for (std::size_t q = 0; q < p.size(); ++q)
-    if (p.position[q][0] < 3.0) p.velocity[q] = {};
+  ParticleSet p;
+  p.materials = {elastic(1e6, 0.3)};
+  add_lattice(p, {4.0, 0.0, 8.0, 2.0}, 0.25, 1800.0);
+  for (auto& v : p.velocity) v = {30.0, 0.0, 0.0};
+  add_lattice(p, {16.0, 0.0, 32.0, 2.0}, 0.25, 1800.0);
   FlowConfig c = free_space(0.5);
-  c.sleep.emplace();
-  c.sleep->after = 1e-3;
+  c.sleep = SleepSettings{0.02, 0.02};
   Run run(p, c, kThreads);
   std::int64_t slept = 0;
-  while (run.s.time < 0.05) {
+  while (run.s.time < 0.5) {
     run.step();
     slept = std::max<std::int64_t>(slept, run.s.sleep.count);
   }
   CHECK(slept > 0);
+  CHECK(run.s.sleep.count < slept);
 }
 
 TEST_CASE("Steps in three dimensions") {
