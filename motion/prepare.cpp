@@ -67,7 +67,7 @@ struct Schema<ResampleConfig> {
 void Schema<MotionConfig>::describe(FieldVisitor& v, MotionConfig& c) {
   v.file("record", c.record, "PEER AT2, or columns of text or CSV; plain or gzip");
   v.text("unit", c.format.unit,
-         "unit of acceleration in a record that does not state it: g, cm/s2");
+         "unit of acceleration in a record that does not state it: g, cm/s2, m/s2");
   v.quantity("dt", c.format.dt, Dim::time, {.above = 0.0}, "time step of a record of one column");
   v.integer("time_column", c.format.time_column, {.min = 0}, "from 1; 0: see the guide");
   v.integer("acceleration_column", c.format.acceleration_column, {.min = 0},

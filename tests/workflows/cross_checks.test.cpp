@@ -124,6 +124,21 @@ TEST_CASE("Loads are held against the weight of the soil") {
   CHECK_THAT(with(1001.0 * weight, 0.0).errors, Contains("check number and unit"));
 }
 
+TEST_CASE("A section whose toe is on the left is seen, and an end before any rest") {
+  const auto sloping = [](double left, double right) {
+    SectionMesh s = dam();
+    for (Vec2& p : s.mesh.nodes) p[1] *= left + (right - left) * p[0] / 120.0;
+    Findings found;
+    check_edges(flow_config(), soil_of(s, map_config(), kSoils), found);
+    return answer(found).warnings;
+  };
+  CHECK(sloping(1.0, 0.05).empty());
+  CHECK(sloping(0.6, 1.0).empty());
+  CHECK_THAT(sloping(0.05, 1.0), Contains("toe on the left"));
+  CHECK_THAT(ask([](FlowConfig& c) { c.end = 4.0; }, check_edges).warnings,
+             Contains("end: 4 s is before rest.window"));
+}
+
 TEST_CASE("Rollers and outlets stand outside the soil") {
   const auto with = [](auto change) { return ask(change, check_edges); };
   CHECK_THAT(with([](FlowConfig& c) { c.left_roller = 30.0; }).errors, Contains("left_roller"));
