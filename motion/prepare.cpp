@@ -130,8 +130,9 @@ GroundMotion prepare_motion(const MotionConfig& config, const Progress& progress
   const bool changed = config.baseline || config.filter || config.resample;
   if (config.pga && (config.record || config.synthetic || changed))
     motion = scaled_to_pga(motion, *config.pga);
-  if (std::string odd = implausible_peak("the motion", pga(motion)); warnings && !odd.empty())
-    warnings->push_back(std::move(odd));
+  if (warnings)
+    for (std::string& odd : implausible("the motion", pga(motion), motion.dt))
+      warnings->push_back(std::move(odd));
   return motion;
 }
 
