@@ -124,7 +124,7 @@ TEST_CASE("Loads are held against the weight of the soil") {
   CHECK_THAT(with(1001.0 * weight, 0.0).errors, Contains("check number and unit"));
 }
 
-TEST_CASE("A section whose toe is on the left is seen, and an end before any rest") {
+TEST_CASE("A toe on the left, an end before any rest and an angle as friction are seen") {
   const auto sloping = [](double left, double right) {
     SectionMesh s = dam();
     for (Vec2& p : s.mesh.nodes) p[1] *= left + (right - left) * p[0] / 120.0;
@@ -137,6 +137,8 @@ TEST_CASE("A section whose toe is on the left is seen, and an end before any res
   CHECK_THAT(sloping(0.05, 1.0), Contains("toe on the left"));
   CHECK_THAT(ask([](FlowConfig& c) { c.end = 4.0; }, check_edges).warnings,
              Contains("end: 4 s is before rest.window"));
+  CHECK_THAT(ask([](FlowConfig& c) { c.ground.friction = 35.0; }, check_edges).warnings,
+             Contains("ground.friction: 35 is more"));
 }
 
 TEST_CASE("Rollers and outlets stand outside the soil") {

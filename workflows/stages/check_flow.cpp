@@ -60,7 +60,13 @@ void check_direction(const Soil& soil, Findings& found) {
          e.right, e.left);
 }
 
-void check_end(const FlowConfig& flow, Findings& found) {
+void check_friction_and_end(const FlowConfig& flow, Findings& found) {
+  constexpr double kSteepest = 1.5;  // tan 56 deg
+  if (flow.ground.friction > kSteepest)
+    warn(found,
+         "ground.friction: {:g} is more than ground has: it is a coefficient, the tangent of an "
+         "angle.",
+         flow.ground.friction);
   if (flow.end < flow.rest.window)
     warn(found,
          "end: {:g} s is before rest.window has passed, {:g} s: the run cannot come to rest, and "
@@ -152,7 +158,7 @@ void check_tractions(const FlowConfig& flow, const Soil& soil, Findings& found) 
 
 void check_edges(const FlowConfig& flow, const Soil& soil, Findings& found) {
   const Extent& e = soil.all;
-  check_end(flow, found);
+  check_friction_and_end(flow, found);
   check_direction(soil, found);
   if (e.empty()) return;
   const double slack = 0.5 * flow.cell, toe = soil.counted.right;
