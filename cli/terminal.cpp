@@ -22,6 +22,14 @@ double seconds_since(Clock::time_point start) {
 
 bool continues(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
 
+/// Columns of a bar beside a text: a narrow terminal loses the bar before the state of the run.
+int bar_width(std::size_t columns, std::size_t text) {
+  constexpr std::size_t kAround = 4;  // brackets, a blank, a digit by which the text may grow
+  for (const int bar : {16, 8, 4})
+    if (text + kAround + static_cast<std::size_t>(bar) <= columns) return bar;
+  return 0;
+}
+
 std::size_t width_of(std::string_view text) {
   return text.size() - static_cast<std::size_t>(std::count_if(text.begin(), text.end(), continues));
 }
@@ -161,14 +169,13 @@ void Display::progress(std::string_view stage, Share share, std::string_view tex
   }
   if (bar_on_line_ && seconds_since(drawn_) < 0.1) return;
   drawn_ = Clock::now();
-  // A narrow terminal loses the bar before it loses the state of the run.
-  const int bar = columns_ >= 70 ? 16 : columns_ >= 56 ? 8 : 0;
+  const std::string state = fmt::format("{:>3} %  ETA {:>5}  {}", percent, eta, text);
+  const int bar = bar_width(columns_, kNameWidth + 1 + width_of(state));
   const int full = static_cast<int>(fraction * bar);
   const std::string drawn =
       bar > 0 ? fmt::format("[{:#<{}}{:-<{}}] ", "", full, "", bar - full) : "";
-  fmt::print("\r\033[K{}", cut_to(fmt::format("{:<{}} {}{:>3} %  ETA {:>5}  {}", stage, kNameWidth,
-                                              drawn, percent, eta, text),
-                                  columns_));
+  fmt::print("\r\033[K{}",
+             cut_to(fmt::format("{:<{}} {}{}", stage, kNameWidth, drawn, state), columns_));
   std::fflush(stdout);
   bar_on_line_ = true;
 }

@@ -152,8 +152,15 @@ double parse_quantity(std::string_view text, Dim dim) {
   }
   validate(std::isfinite(number), "'{}' is not a finite number", text);
   const std::string_view unit = trim(text.substr(used));
+  validate(!unit.starts_with(','),
+           "'{}' has ',' in a number (numbers have a decimal point) write '.'", text);
   if (dim == Dim::none) {
     if (unit == "%") return number / 100.0;
+    validate(
+        unit != "deg" && unit != "rad",
+        "'{}' is an angle (a plain number is expected) a coefficient of friction is the tangent "
+        "of the angle",
+        text);
     validate(unit.empty(), "'{}' has a unit (a plain number is expected) write '{}'", text,
              text.substr(0, used));
     return number;

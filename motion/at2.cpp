@@ -34,7 +34,7 @@ Record parse_at2(const RecordText& text, const RecordFormat& format) {
   const At2Header header = parse_at2_header(text);
   const std::optional<std::string> unit = header.unit ? header.unit : format.unit;
   validate(unit.has_value(),
-           "{}: the header does not state the unit of acceleration (g or cm/s2?) declare it",
+           "{}: the header does not state the unit of acceleration (g or cm/s2?) give `unit`",
            text.name);
   const double to_si = unit_factor(*unit, Dim::acceleration);
 

@@ -87,10 +87,11 @@ double uniform_step(const std::string& name, const std::vector<TimedValue>& time
 }  // namespace
 
 Record parse_columns(const RecordText& text, const RecordFormat& format) {
-  validate(format.unit.has_value(),
-           "{}: the unit of acceleration is not known (columns do not say it) declare it: g, cm/s2 "
-           "or m/s2",
-           text.name);
+  validate(
+      format.unit.has_value(),
+      "{}: the unit of acceleration is not known (columns do not say it) give `unit`: g, cm/s2 "
+      "or m/s2",
+      text.name);
   const double to_si = unit_factor(*format.unit, Dim::acceleration);
 
   Record record{.motion = {.dt = kUnset, .acceleration = {}, .origin = text.name}, .notes = {}};
@@ -122,7 +123,7 @@ Record parse_columns(const RecordText& text, const RecordFormat& format) {
 
   if (choice.time == 0) {
     validate(format.dt.has_value(),
-             "{}: the time step is not known (there is no time column) declare it", text.name);
+             "{}: the time step is not known (there is no time column) give `dt`", text.name);
     record.motion.dt = *format.dt;
     return record;
   }

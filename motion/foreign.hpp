@@ -1,6 +1,9 @@
 #pragma once
 #include "motion/record_text.hpp"
 
+#include <string>
+#include <vector>
+
 namespace flowslide {
 
 /// Refuses, by their header, formats of acceleration records that are not read, with their name and
@@ -8,8 +11,8 @@ namespace flowslide {
 /// wrongly or refused with a message that does not help. Throws InputError.
 void refuse_foreign_format(const RecordText& text);
 
-/// A record whose peak cannot be that of an earthquake, or is too small to matter, as one sentence;
-/// empty otherwise.
-std::string implausible_peak(const std::string& name, double peak);
+/// A peak that cannot be that of an earthquake or is too small to matter, and a time step in which
+/// no recorder records, as sentences.
+std::vector<std::string> implausible(const std::string& name, double peak, double step);
 
 }  // namespace flowslide

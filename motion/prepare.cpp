@@ -67,7 +67,7 @@ struct Schema<ResampleConfig> {
 void Schema<MotionConfig>::describe(FieldVisitor& v, MotionConfig& c) {
   v.file("record", c.record, "PEER AT2, or columns of text or CSV; plain or gzip");
   v.text("unit", c.format.unit,
-         "unit of acceleration in a record that does not state it: g, cm/s2");
+         "unit of acceleration in a record that does not state it: g, cm/s2, m/s2");
   v.quantity("dt", c.format.dt, Dim::time, {.above = 0.0}, "time step of a record of one column");
   v.integer("time_column", c.format.time_column, {.min = 0}, "from 1; 0: see the guide");
   v.integer("acceleration_column", c.format.acceleration_column, {.min = 0},
@@ -130,8 +130,9 @@ GroundMotion prepare_motion(const MotionConfig& config, const Progress& progress
   const bool changed = config.baseline || config.filter || config.resample;
   if (config.pga && (config.record || config.synthetic || changed))
     motion = scaled_to_pga(motion, *config.pga);
-  if (std::string odd = implausible_peak("the motion", pga(motion)); warnings && !odd.empty())
-    warnings->push_back(std::move(odd));
+  if (warnings)
+    for (std::string& odd : implausible("the motion", pga(motion), motion.dt))
+      warnings->push_back(std::move(odd));
   return motion;
 }
 

@@ -13,7 +13,7 @@ Record parse(const RecordText& text, const RecordFormat& format) {
   if (!is_at2(text)) refuse_foreign_format(text);
   Record record = is_at2(text) ? parse_at2(text, format) : parse_columns(text, format);
   check(record.motion);
-  if (std::string odd = implausible_peak(text.name, pga(record.motion)); !odd.empty())
+  for (std::string& odd : implausible(text.name, pga(record.motion), record.motion.dt))
     record.warnings.push_back(std::move(odd));
   return record;
 }

@@ -110,6 +110,8 @@ def draw_water(ax, section):
     x, water, ground = section.water.T
     ax.plot(x, water, color=SKY, lw=1.4)
     pond = water > ground - 0.25
+    if pond.any():  # the highest water, not a water table that comes out at the toe
+        pond &= water > water[pond].max() - 1.0
     ax.fill_between(x, ground, water, where=water > ground, color=SKY, alpha=0.4, lw=0)
     shown = np.flatnonzero(pond & (x > ax.get_xlim()[0]) & (x < ax.get_xlim()[1]))
     if len(shown) > 2:

@@ -208,12 +208,16 @@ std::string how_sure(const ReportInputs& in, const ReportFacts& f) {
   return out;
 }
 
+/// Whole per cent, without a sign at 0.
+double percent(double part, double whole) { return std::round(100.0 * part / whole) + 0.0; }
+
 std::string why(const ReportInputs& in, const ReportFacts& f, const FinalState& end) {
   std::string out = "**Why**\n\n";
   const Strength s = strength_of(in);
   for (const auto& [window, depth] : f.liquefaction_depth)
-    out += fmt::format("- Under the {} the soil liquefied to a depth of {:.1f} m.\n", cell(window),
-                       depth);
+    out +=
+        fmt::format("- {} soil liquefied to a depth of {:.1f} m.\n",
+                    window == "all" ? "The" : fmt::format("Under the {} the", cell(window)), depth);
   if (s.area > 0.0)
     out += fmt::format(
         "- {:.0f} m2 of the section liquefied; its residual strength is {:.3g} kPa on average "
@@ -229,9 +233,9 @@ std::string why(const ReportInputs& in, const ReportFacts& f, const FinalState& 
     out += fmt::format(
         "- Gravity did {:.3g} MJ per metre of width; {:.0f} % of it went into the soil, {:.0f} % "
         "into friction on the ground, {:.0f} % into damping and transfer.\n",
-        last.gravity_work / 1e6, 100.0 * last.plastic_work / last.gravity_work,
-        100.0 * last.friction_work / last.gravity_work,
-        100.0 * last.damping_work / last.gravity_work);
+        last.gravity_work / 1e6, percent(last.plastic_work, last.gravity_work),
+        percent(last.friction_work, last.gravity_work),
+        percent(last.damping_work, last.gravity_work));
   out += fmt::format("- The moment of transfer: {}.\n\n", cell(in.zone.transfer_reason));
   return out;
 }

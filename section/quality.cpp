@@ -86,9 +86,9 @@ std::vector<std::string> quality_notes(const QuadMesh& mesh, const MeshQuality& 
   // The thinnest element sets the explicit steps of all.
   if (const double price = q.median_thickness / q.thickness.value; price > 4.0)
     notes.push_back(fmt::format(
-        "{} is {:.2g} m thin where half of the elements are thicker than {:.2g} m, so that a shaking "
-        "takes some {:.0f} times more steps than the rest needs (as many elements cross a narrow "
-        "part as a wide one) end blocks where the section narrows, or ask for larger elements",
+        "{} is {:.2g} m thin where half of the elements are thicker than {:.2g} m, so that a "
+        "shaking takes some {:.0f} times more steps than the rest needs (as many elements cross a "
+        "narrow part as a wide one) give fewer `divisions` across it, or a larger size",
         place(q.thickness), q.thickness.value, q.median_thickness, price));
   return notes;
 }

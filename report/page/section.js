@@ -189,8 +189,10 @@ class Section {
           view.py(ground) - view.py(y),
         );
     c.globalAlpha = 1;
+    // The highest water is the pond, not a water table that comes out at the toe.
+    const level = Math.max(...pond.map(([, y]) => y));
     const inside = pond.filter(
-      ([x]) => view.px(x) > VIEW.left && view.px(x) < VIEW.left + view.wide,
+      ([x, y]) => y > level - 1 && view.px(x) > VIEW.left && view.px(x) < VIEW.left + view.wide,
     );
     if (inside.length < 3) return;
     const [x, y] = inside[inside.length >> 1],

@@ -26,6 +26,9 @@ TEST_CASE("a missing or wrong unit is refused with a suggestion", "[core]") {
                     Catch::Contains("'m' is a unit of length (angle expected)"));
   CHECK_THROWS_WITH(parse_quantity("35 dag", Dim::angle), Catch::Contains("unknown unit 'dag'"));
   CHECK_THROWS_WITH(parse_quantity("0.5 m", Dim::none), Catch::Contains("a plain number"));
+  CHECK_THROWS_WITH(parse_quantity("35 deg", Dim::none), Catch::Contains("tangent of the angle"));
+  CHECK_THROWS_WITH(parse_quantity("0,3 g", Dim::acceleration),
+                    Catch::Contains("'0,3 g' has ',' in a number"));
   CHECK_THROWS_AS(parse_quantity("nan m", Dim::length), InputError);
   CHECK_THROWS_AS(parse_quantity("1e999 m", Dim::length), InputError);
   CHECK_THROWS_AS(parse_quantity("", Dim::none), InputError);

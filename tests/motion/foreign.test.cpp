@@ -66,6 +66,16 @@ TEST_CASE("Peaks that no earthquake has are warned about", "[motion]") {
   CHECK_THAT(warnings("0.3", "cm/s2"), Contains("nobody would feel"));
 }
 
+TEST_CASE("A time in milliseconds is warned about", "[motion]") {
+  const auto warnings = [](const std::string& step) {
+    return parse_record("0.1\n0.2\n", "a.txt", {.unit = "g", .dt = std::stod(step)}).warnings;
+  };
+  CHECK(warnings("0.02").empty());
+  REQUIRE(warnings("10").size() == 1);
+  CHECK_THAT(warnings("10").front(), Contains("a.txt: the time step is 10 s"));
+  CHECK_THAT(warnings("1e-5").front(), Contains("unit of time"));
+}
+
 TEST_CASE("Decimal commas and odd blanks in records are named", "[motion]") {
   CHECK_THAT(message("0,00 0,1\n0,01 0,2\n"), Contains("a.txt:1") && Contains("decimal commas"));
   CHECK_THAT(message("0,00;0,1\n0,01;0,2\n"), Contains("decimal commas"));

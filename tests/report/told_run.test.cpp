@@ -97,6 +97,9 @@ TEST_CASE("A report tells motion, mesh, soils, strengths and grid without the wo
   CHECK_THAT(words, Contains("Under the pond the soil liquefied to a depth of 18.0 m"));
   CHECK_THAT(words, Contains("70 % of it went into the soil, 30 % into friction"));
   CHECK_THAT(words, Contains("| cell size | 2.5 m |"));
+  ReportFacts whole = compute_facts(zone, flow, end, {});
+  whole.liquefaction_depth = {{"all", 12.0}};  // what a zone without windows has
+  CHECK_THAT(told_judgement(in, {}, whole, end), Contains("- The soil liquefied to a depth of 12"));
   CHECK_THAT(told_inputs({.history = history,
                           .zone = zone,
                           .particles = particles,

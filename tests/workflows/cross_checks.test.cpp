@@ -124,6 +124,23 @@ TEST_CASE("Loads are held against the weight of the soil") {
   CHECK_THAT(with(1001.0 * weight, 0.0).errors, Contains("check number and unit"));
 }
 
+TEST_CASE("A toe on the left, an end before any rest and an angle as friction are seen") {
+  const auto sloping = [](double left, double right) {
+    SectionMesh s = dam();
+    for (Vec2& p : s.mesh.nodes) p[1] *= left + (right - left) * p[0] / 120.0;
+    Findings found;
+    check_edges(flow_config(), soil_of(s, map_config(), kSoils), found);
+    return answer(found).warnings;
+  };
+  CHECK(sloping(1.0, 0.05).empty());
+  CHECK(sloping(0.6, 1.0).empty());
+  CHECK_THAT(sloping(0.05, 1.0), Contains("toe on the left"));
+  CHECK_THAT(ask([](FlowConfig& c) { c.end = 4.0; }, check_edges).warnings,
+             Contains("end: 4 s is before rest.window"));
+  CHECK_THAT(ask([](FlowConfig& c) { c.ground.friction = 35.0; }, check_edges).warnings,
+             Contains("ground.friction: 35 is more"));
+}
+
 TEST_CASE("Rollers and outlets stand outside the soil") {
   const auto with = [](auto change) { return ask(change, check_edges); };
   CHECK_THAT(with([](FlowConfig& c) { c.left_roller = 30.0; }).errors, Contains("left_roller"));
@@ -202,6 +219,20 @@ TEST_CASE("Materials of the transfer have plausible numbers") {
   CHECK_THAT(with([](MapMaterial& m) { m = soil(20.0); }).errors, Contains("youngs_modulus"));
   CHECK_THAT(with([](MapMaterial& m) { m = soil(4e5); }).errors, Contains("pressed flat"));
   CHECK_THAT(with([](MapMaterial& m) { m = soil(2e6); }).warnings, Contains("settle by 28 %"));
+  const auto sand = [](double cohesion, double friction_angle) {
+    return [=](MapMaterial& m) {
+      m.law = {};
+      MohrCoulomb::Params& p = m.law.of<MohrCoulomb>().emplace();
+      p.youngs_modulus = 20e6;
+      p.poisson_ratio = 0.3;
+      p.cohesion = cohesion;
+      p.friction_angle = friction_angle;
+    };
+  };
+  CHECK(with(sand(25e3, 0.6)).warnings.empty());
+  CHECK(with(sand(25e3, 0.0)).warnings.empty());
+  CHECK_THAT(with(sand(25e3, 0.011)).warnings, Contains("friction_angle is 0.6303 deg"));
+  CHECK_THAT(with(sand(25e6, 0.6)).warnings, Contains("cohesion is 2.5e+04 kPa"));
   CHECK_THROWS_WITH(with([](MapMaterial& m) { m.of = {"clay"}; }),
                     Contains("materials.tailings: the section has no material 'clay'"));
 }
@@ -246,6 +277,12 @@ TEST_CASE("Soils and water of the finite elements have plausible numbers") {
       Contains("youngs_modulus"));
   CHECK_THAT(with([](FemConfig& c, M&) { c.water->bulk_modulus = 2.2e3; }).errors,
              Contains("water.bulk_modulus"));
+  CHECK_THAT(with([](FemConfig&, M& x) {
+               x.permeability = {1.0, 1e-6};
+             }).warnings,
+             Contains("permeability is 1 m/s"));
+  CHECK_THAT(with([](FemConfig& c, M&) { c.base.shear_wave_velocity = 80.0; }).warnings,
+             Contains("base.shear_wave_velocity is 80 m/s"));
   CHECK_THAT(with([](FemConfig& c, M&) { c.water->density = 1.0; }).errors,
              Contains("water.density"));
   CHECK_THAT(with([](FemConfig& c, M&) { c.gravity.acceleration = 50.0; }).warnings,

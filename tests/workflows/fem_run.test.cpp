@@ -6,6 +6,7 @@
 #include "workflows/stages/stage_list.hpp"
 
 #include <cstring>
+#include <fstream>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -124,6 +125,17 @@ TEST_CASE("fem.run writes no text recorders unless asked", "[workflows]") {
   const Case c;
   c.run(kShaking, "run", {"stages.shake.with.end=0.25 s"});
   CHECK_FALSE(std::filesystem::exists(c.scratch / "run/recorders"));
+}
+
+TEST_CASE("a shaking that ends before its motion has shaken is warned about", "[workflows]") {
+  const Case c;
+  const auto warnings = [&](const char* end) {
+    c.run(kShaking, "run", {std::string("stages.shake.with.end=") + end});
+    std::ifstream file(c.scratch / "run/result.json");
+    return nlohmann::json::parse(file)["warnings"].dump();
+  };
+  CHECK_THAT(warnings("0.25 s"), Contains("shake: end: the shaking ends at 0.25 s, but 95 %"));
+  CHECK_THAT(warnings("null"), !Contains("95 %"));
 }
 
 TEST_CASE("a workflow that is interrupted in fem.run continues there", "[workflows]") {

@@ -38,6 +38,42 @@ double ground_height(const std::vector<std::vector<double>>& surface, double x) 
   return lowest;
 }
 
+/// Height of the soil within a twentieth of its length from x.
+double height_near(double x, const Soil& soil) {
+  const Extent& e = soil.counted;
+  double top = e.bottom;
+  for (const Vec2& c : soil.centres)
+    if (std::abs(c[0] - x) <= 0.05 * (e.right - e.left)) top = std::max(top, c[1]);
+  return top - e.bottom;
+}
+
+/// Flows are followed towards larger x.
+void check_direction(const Soil& soil, Findings& found) {
+  const Extent& e = soil.counted;
+  if (e.empty()) return;
+  if (height_near(e.right, soil) > 0.5 * e.height() &&
+      height_near(e.left, soil) < 0.25 * e.height())
+    warn(found,
+         "the soil is high at its right end, x = {:g} m, and runs out at its left, x = {:g} m: "
+         "flows go to the right, and the runout counts from the right end. Is the section drawn "
+         "with its toe on the left? Mirror it.",
+         e.right, e.left);
+}
+
+void check_friction_and_end(const FlowConfig& flow, Findings& found) {
+  constexpr double kSteepest = 1.5;  // tan 56 deg
+  if (flow.ground.friction > kSteepest)
+    warn(found,
+         "ground.friction: {:g} is more than ground has: it is a coefficient, the tangent of an "
+         "angle.",
+         flow.ground.friction);
+  if (flow.end < flow.rest.window)
+    warn(found,
+         "end: {:g} s is before rest.window has passed, {:g} s: the run cannot come to rest, and "
+         "its runout is a lower bound.",
+         flow.end, flow.rest.window);
+}
+
 }  // namespace
 
 Soil soil_of(const SectionMesh& section, const MapConfig& config,
@@ -122,6 +158,8 @@ void check_tractions(const FlowConfig& flow, const Soil& soil, Findings& found) 
 
 void check_edges(const FlowConfig& flow, const Soil& soil, Findings& found) {
   const Extent& e = soil.all;
+  check_friction_and_end(flow, found);
+  check_direction(soil, found);
   if (e.empty()) return;
   const double slack = 0.5 * flow.cell, toe = soil.counted.right;
   if (flow.left_roller && *flow.left_roller > e.left + slack)

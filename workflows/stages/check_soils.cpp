@@ -5,12 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include <fmt/format.h>
 
 /// Numbers of soils and water that cannot be, or are odd.
 namespace flowslide {
 namespace {
+
+constexpr double kAnything = std::numeric_limits<double>::infinity();
 
 struct Plausible {
   double least, low, high, most;  ///< outside of least and most it cannot be
@@ -21,6 +25,13 @@ constexpr Plausible kDensity{600.0, 1200.0, 3200.0, 5000.0};
 constexpr Plausible kGrains{1500.0, 2300.0, 4700.0, 7500.0};
 // From slurry to rock.
 constexpr Plausible kStiffness{5e3, 2e5, 5e10, 1e12};
+// Of soil, in degrees; radians and degrees are taken for one another.
+constexpr Plausible kFriction{0.0, 5.0, 50.0, 90.0};
+// Up to that of a weak rock.
+constexpr Plausible kCohesion{0.0, 0.0, 5e5, kAnything};
+// From clay to open gravel.
+constexpr Plausible kPermeability{0.0, 1e-12, 0.1, kAnything};
+constexpr Plausible kShearWave{0.0, 150.0, 5000.0, kAnything};
 constexpr Plausible kWaterStiffness{1e5, 1e7, 2.6e9, 1e10};
 constexpr Plausible kWaterDensity{500.0, 950.0, 1300.0, 2000.0};
 
@@ -56,18 +67,32 @@ void check_stiffness(const std::string& where, double modulus, double density, d
                     where, modulus / 1e3, 100.0 * weight / modulus, weight / 1e3, height));
 }
 
-double modulus_of(const AnyMaterial& law) {
+/// Unset: the law has no such parameter, or it is left out.
+double parameter_of(const AnyMaterial& law, const char* name) {
   const LawParameters p = to_parameters(law);
-  const auto found = p.parameters.find("youngs_modulus");
+  const auto found = p.parameters.find(name);
   return found == p.parameters.end() ? kUnset : found->second;
 }
 
-void judge_stiffness(const std::string& where, const FemMaterialConfig& m, Findings& found) {
+void check_shear_strength(const std::string& where, double cohesion, double friction_angle,
+                          Findings& found) {
+  constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
+  if (is_set(cohesion))
+    judge(where + ".cohesion", cohesion, 1e3, "kPa", kCohesion, kUnitHint, found);
+  if (friction_angle > 0.0)
+    judge(where + ".friction_angle", friction_angle / kRadiansPerDegree, 1.0, "deg", kFriction,
+          kUnitHint, found);
+}
+
+void check_law(const std::string& where, const FemMaterialConfig& m, Findings& found) {
   ShakingLaws::each([&]<class M>() {
-    if (const auto& law = m.laws.of<M>())
-      if constexpr (requires { law->youngs_modulus; })
-        judge(where + ".youngs_modulus", law->youngs_modulus, 1e6, "MPa", kStiffness, kUnitHint,
-              found);
+    const auto& law = m.laws.of<M>();
+    if (!law) return;
+    if constexpr (requires { law->youngs_modulus; })
+      judge(where + ".youngs_modulus", law->youngs_modulus, 1e6, "MPa", kStiffness, kUnitHint,
+            found);
+    if constexpr (requires { law->friction_angle; })
+      check_shear_strength(where, law->cohesion, law->friction_angle, found);
   });
 }
 
@@ -86,8 +111,11 @@ void check_map_materials(const MapConfig& map, const std::vector<HistoryMaterial
     double density = 0.0;
     for (const std::string& source : sources_of(name, m))
       density = std::max(density, find_material(materials, source, where).density);
-    const double modulus = modulus_of(make_material(m.law, name));
+    const AnyMaterial law = make_material(m.law, name);
+    const double modulus = parameter_of(law, "youngs_modulus");
     if (is_set(modulus)) check_stiffness(where, modulus, density, height, found);
+    check_shear_strength(where, parameter_of(law, "cohesion"), parameter_of(law, "friction_angle"),
+                         found);
     if (m.liquefied)
       check_stiffness(where + ".liquefied", m.liquefied->youngs_modulus, density, height, found);
   }
@@ -106,8 +134,13 @@ void check_fem_soils(const FemConfig& fem, Findings& found) {
                       where, m.density, m.void_ratio),
           grains, 1.0, "kg/m3", kGrains, "density is that of grains and water together; check both",
           found);
-    judge_stiffness(where, m, found);
+    for (const double k : m.permeability)
+      if (is_set(k)) judge(where + ".permeability", k, 1.0, "m/s", kPermeability, kUnitHint, found);
+    check_law(where, m, found);
   }
+  if (fem.base.shear_wave_velocity)
+    judge("base.shear_wave_velocity", *fem.base.shear_wave_velocity, 1.0, "m/s", kShearWave,
+          "it is that of the rock below the base", found);
   if (fem.water) {
     judge("water.bulk_modulus", fem.water->bulk_modulus, 1e6, "MPa", kWaterStiffness,
           "pure water has 2200 MPa, with air in it less", found);

@@ -5,6 +5,7 @@
 #include "fem/run.hpp"
 #include "model/history.hpp"
 #include "model/motion_file.hpp"
+#include "motion/measures.hpp"
 #include "transfer/zone/zone_record.hpp"
 #include "workflows/stages/cross_checks.hpp"
 #include "workflows/stages/preview.hpp"
@@ -12,6 +13,7 @@
 
 #include <memory>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace flowslide {
@@ -80,9 +82,10 @@ struct FemRun {
   static StageResult run(const RunContext& context, const Config& config, const Inputs& in,
                          const Outputs& out) {
     const SectionMesh section = read_section_mesh(in.mesh.path);
-    const FemFacts f = run_fem(section, read_motion_file(in.motion.path), config,
-                               {out.history.path, context.folder / "checkpoint"}, context.threads,
-                               context.progress, stop_rule(section, config));
+    const GroundMotion motion = read_motion_file(in.motion.path);
+    const FemFacts f =
+        run_fem(section, motion, config, {out.history.path, context.folder / "checkpoint"},
+                context.threads, context.progress, stop_rule(section, config));
     nlohmann::ordered_json facts = {{"fem_end_s", f.end_time},
                                     {"fem_stopped_by_displacement", f.stopped},
                                     {"fem_stopped_at_transfer", f.stopped_by_rule},
@@ -103,6 +106,12 @@ struct FemRun {
                                     {"fem_seconds", f.seconds},
                                     {"fem_notes", f.notes}};
     StageResult result{.facts = {}, .publish = {}, .warnings = f.notes};
+    const double strong = arias_time(motion, 0.95);
+    if (!f.stopped && !f.stopped_by_rule && f.end_time < strong)
+      result.warnings.push_back(fmt::format(
+          "end: the shaking ends at {:.3g} s, but 95 % of the motion's Arias intensity have come at "
+          "{:.3g} s only: what it would still liquefy is left out.",
+          f.end_time, strong));
     if (config.opensees_recorders) {
       const std::vector<std::string> lost =
           write_opensees_recorders(context.folder / "recorders", FemHistory(out.history.path));
