@@ -1,4 +1,5 @@
 #include "cli/command.hpp"
+#include "cli/processors.hpp"
 #include "cli/signals.hpp"
 #include "cli/terminal.hpp"
 #include "config/yaml.hpp"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <sched.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -29,15 +29,9 @@ struct RunArguments {
   bool dry_run = false;
 };
 
-/// Processors that this process may use.
-int available_threads() {
-  cpu_set_t set;
-  return sched_getaffinity(0, sizeof set, &set) == 0 ? std::max(1, CPU_COUNT(&set)) : 1;
-}
-
 /// Results are the same for any number; more than there are only wait for each other.
 int threads_for(int wanted) {
-  const int most = available_threads();
+  const int most = processors();
   if (wanted > most)
     fmt::print(stderr, "note: {} threads on {} processors (more would wait): {} are used\n", wanted,
                most, most);
@@ -115,7 +109,7 @@ int report(const std::string& folder, const std::vector<std::string>& allowed_pr
                                  folder, problem.empty() ? "it has no run.lock" : problem));
   const Workflow workflow = load_workflow(lock->file, lock->overrides, all_stages());
   RunOptions options{.folder = folder,
-                     .threads = available_threads(),
+                     .threads = processors(),
                      .stop_requested = &stop_on_signal(),
                      .redo = {},
                      .allowed_programs = allowed_programs};

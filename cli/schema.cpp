@@ -1,6 +1,6 @@
 #include "cli/command.hpp"
+#include "cli/study_schema.hpp"
 #include "core/files.hpp"
-#include "workflows/engine/result_folder.hpp"
 #include "workflows/engine/stage.hpp"
 #include "workflows/stages/stage_list.hpp"
 
@@ -73,9 +73,11 @@ std::string stage_page(const StageType& type) {
 
 void add_schema(CLI::App& app, Command& action) {
   CLI::App* command = app.add_subcommand("schema", "Print the JSON Schema of workflow files");
-  command->callback([&action] {
-    action = [] {
-      fmt::print("{}\n", workflow_schema(all_stages()).dump(2));
+  const auto of_studies = std::make_shared<bool>(false);
+  command->add_flag("--study", *of_studies, "of study files instead");
+  command->callback([of_studies, &action] {
+    action = [of_studies] {
+      fmt::print("{}\n", (*of_studies ? study_schema() : workflow_schema(all_stages())).dump(2));
       return 0;
     };
   });

@@ -1,20 +1,21 @@
 #include "cli/command.hpp"
+#include "cli/processors.hpp"
 #include "cli/signals.hpp"
 #include "cli/study_display.hpp"
 #include "core/check.hpp"
+#include "core/files.hpp"
 #include "core/memory.hpp"
 #include "study/page/page.hpp"
 #include "study/run/clean.hpp"
 #include "study/run/pool.hpp"
 #include "workflows/engine/lock.hpp"
-#include "workflows/engine/result_folder.hpp"
 #include "workflows/stages/stage_list.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <memory>
-#include <sched.h>
+#include <optional>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -34,13 +35,6 @@ struct StudyArguments {
   bool dry_run = false, quiet = false, json = false, retry = false;
   std::vector<std::string> allowed_programs;
 };
-
-std::size_t processors() {
-  cpu_set_t set;
-  return sched_getaffinity(0, sizeof set, &set) == 0
-             ? static_cast<std::size_t>(std::max(1, CPU_COUNT(&set)))
-             : 1;
-}
 
 fs::path study_folder(const StudyArguments& args, const study::Plan& plan) {
   const fs::path folder = args.out.empty() ? fs::path("runs") / plan.name : fs::path(args.out);
@@ -78,7 +72,7 @@ int run_stage_of_study(const std::string& text) {
 
 study::PoolOptions pool_options(const StudyArguments& args) {
   study::PoolOptions options;
-  options.threads = args.threads > 0 ? static_cast<std::size_t>(args.threads) : processors();
+  options.threads = static_cast<std::size_t>(args.threads > 0 ? args.threads : processors());
   options.jobs = args.jobs > 0 ? static_cast<std::size_t>(args.jobs) : options.threads;
   constexpr double kShare = 0.9;
   options.memory = kShare * available_memory();
@@ -89,17 +83,19 @@ study::PoolOptions pool_options(const StudyArguments& args) {
   return options;
 }
 
-int run(const StudyArguments& args) {
-  const study::Plan plan = study::make_plan(study::read_study(args.file), all_stages());
+StudyOutput output_of(const StudyArguments& args) {
+  if (args.json) return StudyOutput::json;
+  if (args.quiet) return StudyOutput::quiet;
+  return ::isatty(STDOUT_FILENO) == 1 ? StudyOutput::terminal : StudyOutput::lines;
+}
+
+/// Exit code of a study as it was planned; nothing if a workflow was edited meanwhile.
+std::optional<int> run_plan(const StudyArguments& args, const study::Plan& plan) {
   expect_allowed(plan, args.allowed_programs);
   const fs::path folder = study_folder(args, plan);
   const study::Store store(folder);
   study::StudyState progress(plan, store);
-  const StudyOutput kind = args.json                      ? StudyOutput::json
-                           : args.quiet                   ? StudyOutput::quiet
-                           : ::isatty(STDOUT_FILENO) == 1 ? StudyOutput::terminal
-                                                          : StudyOutput::lines;
-  StudyDisplay display(plan, progress, kind);
+  StudyDisplay display(plan, progress, output_of(args));
   display.begin(folder);
   if (args.dry_run) {
     display.plan();
@@ -107,21 +103,41 @@ int run(const StudyArguments& args) {
   }
   make_folders(folder / "stages");
   study::write_plan(folder, plan);
+  study::PoolEnd end = study::PoolEnd::done;
   try {
-    run_pool(plan, store, progress, pool_options(args), display.events());
+    end = run_pool(plan, store, progress, pool_options(args), display.events());
   } catch (...) {
     display.close();
     throw;
   }
   display.close();
+  if (end == study::PoolEnd::outdated) return std::nullopt;
   const study::Table table = make_table(plan, progress);
   write_tables(folder, plan, table);
-  write_page(folder, plan, table);
+  write_page(folder, plan, table, &stop_on_signal());
   display.end(folder, table);
   const bool failed = std::any_of(plan.rows.begin(), plan.rows.end(), [&](const study::Row& row) {
     return progress.row_state(row) != study::State::done;
   });
   return failed ? kRowsFailed : 0;
+}
+
+int run(const StudyArguments& args) {
+  // A workflow that does not stay as it is for as long as it takes to plan is one that a program
+  // writes over and over.
+  constexpr int kMostPlans = 20;
+  for (int i = 0; i < kMostPlans; ++i) {
+    const study::Plan plan = study::make_plan(study::read_study(args.file), all_stages());
+    if (const auto code = run_plan(args, plan)) return *code;
+    fmt::print(stderr,
+               "note: {}: a workflow, or a file that it names, has changed since the study was "
+               "planned; it is planned again, and what did not change is kept\n",
+               args.file);
+  }
+  throw InputError(
+      fmt::format("{}: its workflows change again and again (rows would be of many versions). Run "
+                  "the study when they stay as they are.",
+                  args.file));
 }
 
 struct Opened {
@@ -153,7 +169,7 @@ int report(const StudyArguments& args) {
   const Opened study(args.out);
   const study::Table table = make_table(study.plan, study.progress);
   write_tables(study.folder, study.plan, table);
-  write_page(study.folder, study.plan, table);
+  write_page(study.folder, study.plan, table, &stop_on_signal());
   fmt::print("{}\n", (study.folder / "study.html").string());
   return 0;
 }
@@ -180,14 +196,12 @@ void add_study_run(CLI::App& study, Command& action) {
   const auto args = std::make_shared<StudyArguments>();
   CLI::App* command = add(study, action, "run", "Compute what is missing of a study", args, run);
   command->add_option("file", args->file, "study, FILE.yaml")->required();
-  command->add_option("--out", args->out, "folder of the study [runs/<name of the study>]");
-  command->add_option("--jobs", args->jobs, "stages side by side [one per processor]")
+  command->add_option("--out", args->out, "folder of the study [runs/NAME]");
+  command->add_option("--jobs", args->jobs, "stages at once [one a processor]")
       ->check(CLI::Range(1, 4096));
-  command->add_option("--threads", args->threads, "threads of all of them together [all]")
+  command->add_option("--threads", args->threads, "threads of all together [all]")
       ->check(CLI::Range(1, 4096));
-  command
-      ->add_option("--allow-python", args->allowed_programs,
-                   "interpreter that the workflow may name in 'python'")
+  command->add_option("--allow-python", args->allowed_programs, "interpreter to be allowed")
       ->take_all()
       ->allow_extra_args(false);
   command->add_flag("--retry", args->retry, "also what has failed for good before");

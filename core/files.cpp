@@ -206,6 +206,17 @@ void rename_durably(const fs::path& from, const fs::path& to) {
   if (folder_of(from) != folder_of(to)) sync_path(folder_of(from));
 }
 
+void make_folders(const fs::path& folder) {
+  std::error_code error;
+  if (folder.empty() || fs::is_directory(folder, error)) return;
+  const fs::path parent = folder.parent_path();
+  if (parent != folder) make_folders(parent);
+  // "a/" has the parent "a", which is the same folder.
+  if (::mkdir(folder.c_str(), 0777) != 0 && !(errno == EEXIST && fs::is_directory(folder, error)))
+    fail(folder, "cannot be made a folder", errno);
+  sync_path(parent.empty() ? "." : parent);
+}
+
 void remove_path(const fs::path& path) {
   std::error_code error;
   fs::remove_all(path, error);

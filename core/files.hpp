@@ -62,6 +62,9 @@ void sync_tree(const std::filesystem::path& folder);
 /// Replaces `to`, then syncs the folders of both.
 void rename_durably(const std::filesystem::path& from, const std::filesystem::path& to);
 
+/// Makes a folder and those above it, on the disk too.
+void make_folders(const std::filesystem::path& folder);
+
 /// Removes a file, a link (not what it points to) or a folder with what it holds; nothing there is
 /// no error.
 void remove_path(const std::filesystem::path& path);

@@ -2,7 +2,8 @@
 
 #include "config/yaml.hpp"
 #include "core/check.hpp"
-#include "core/unreadable.hpp"
+#include "core/files.hpp"
+#include "exchange/is_hdf5.hpp"
 #include "exporters/cbgeo_csv.hpp"
 #include "exporters/opensees_recorders.hpp"
 #include "importers/mesh_import.hpp"
@@ -16,9 +17,7 @@
 #include "motion/write_motion.hpp"
 #include "section/boundary.hpp"
 
-#include <array>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <string>
 #include <vector>
@@ -43,11 +42,7 @@ void write_series(const fs::path& pvd, const std::vector<double>& times, const c
                   Write&& write) {
   const std::string stem = pvd.stem().string();
   const fs::path folder = pvd.parent_path() / stem;
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw FileError(
-        fmt::format("'{}': the folder cannot be made ({})", folder.string(), error.message()));
+  make_folders(folder);
   std::vector<std::pair<double, fs::path>> files;
   for (std::size_t i = 0; i < times.size(); ++i) {
     const fs::path file = folder / fmt::format("{}_{:04d}{}", stem, i, extension);
@@ -182,16 +177,7 @@ const std::vector<Conversion>& conversions() {
 std::string kind_of(const fs::path& in) {
   std::error_code error;
   if (fs::is_directory(in, error)) return "folder";
-  if (const std::string why = why_unreadable(in); !why.empty())
-    throw FileError(fmt::format("{}: {}", in.string(), why));
-  std::array<char, 8> head{};
-  std::ifstream file(in, std::ios::binary);
-  file.read(head.data(), head.size());
-  if (!file.is_open() || file.bad())
-    throw FileError(
-        fmt::format("{}: cannot be read (the disk or the system refuses)", in.string()));
-  constexpr std::string_view kHdf5 = "\x89HDF\r\n\x1a\n";
-  if (std::string_view(head.data(), head.size()) == kHdf5) return stored_kind(in);
+  if (is_hdf5(in)) return stored_kind(in);
   if (in.extension() == ".h5")
     throw FileError(fmt::format(
         "{}: does not begin as an HDF5 file (it is damaged, or of another kind) make it again",

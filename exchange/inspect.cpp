@@ -1,7 +1,7 @@
 #include "exchange/inspect.hpp"
 
-#include "core/unreadable.hpp"
 #include "exchange/inspect_run.hpp"
+#include "exchange/is_hdf5.hpp"
 #include "importers/recorder_text.hpp"
 #include "model/field_store.hpp"
 #include "model/history.hpp"
@@ -15,9 +15,7 @@
 #include "workflows/stages/stage_list.hpp"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
-#include <fstream>
 
 #include <fmt/format.h>
 
@@ -168,16 +166,7 @@ Json inspect_recorder(const fs::path& path) {
 Json inspect(const fs::path& path) {
   std::error_code error;
   if (fs::is_directory(path, error)) return inspect_run(path);
-  if (const std::string why = why_unreadable(path); !why.empty())
-    throw FileError(fmt::format("{}: {}", path.string(), why));
-  std::array<char, 8> head{};
-  std::ifstream file(path, std::ios::binary);
-  file.read(head.data(), head.size());
-  if (!file.is_open() || file.bad())
-    throw FileError(
-        fmt::format("{}: cannot be read (the disk or the system refuses)", path.string()));
-  constexpr std::string_view kHdf5 = "\x89HDF\r\n\x1a\n";
-  if (std::string_view(head.data(), head.size()) == kHdf5) return inspect_store(path);
+  if (is_hdf5(path)) return inspect_store(path);
   if (path.extension() == ".yaml" || path.extension() == ".yml") return inspect_workflow(path);
   return inspect_recorder(path);
 }

@@ -145,8 +145,9 @@ Svg draw_exceedance(const Exceedance& curve, const std::string& label) {
 }
 
 Svg draw_tornado(std::vector<Swing> swings, double usual_scatter, const std::string& label) {
-  std::stable_sort(swings.begin(), swings.end(), [](const Swing& a, const Swing& b) {
-    return std::abs(a.effect.swing.value) > std::abs(b.effect.swing.value);
+  std::sort(swings.begin(), swings.end(), [](const Swing& a, const Swing& b) {
+    const double x = std::abs(a.effect.swing.value), y = std::abs(b.effect.swing.value);
+    return x != y ? x > y : a.input < b.input;
   });
   constexpr double kRow = 46.0, kNames = 130.0;
   const double height = 74.0 + kRow * static_cast<double>(swings.size());

@@ -94,13 +94,13 @@ class Writer {
         "<th>median</th><th>5 to 95 % of the rows</th><th>spread from the inputs</th>"
         "<th>numerical scatter</th><th>repeated</th></tr>";
     for (std::size_t i = 0; i < f_.results.size(); ++i) {
-      const std::vector<double>& v = f_.exceedance[i].value;
+      const Exceedance& v = f_.exceedance[i];
       const Scatter& s = f_.scatter[i];
       html_ += fmt::format(
           "<tr><td class='word'>{}</td><td>{}</td><td>{} to {}</td><td>&plusmn; {}</td>"
           "<td>{}</td><td>{}</td></tr>",
-          escaped(readable(table_, f_.results[i])), short_number(quantile_of(v, 0.5)),
-          short_number(quantile_of(v, 0.05)), short_number(quantile_of(v, 0.95)),
+          escaped(readable(table_, f_.results[i])), short_number(weighted_quantile(v, 0.5)),
+          short_number(weighted_quantile(v, 0.05)), short_number(weighted_quantile(v, 0.95)),
           short_number(s.of_inputs),
           is_set(s.numerical) ? "&plusmn; " + short_number(s.numerical) : "not repeated",
           s.repeated);
@@ -222,7 +222,7 @@ class Writer {
   }
 
   void comparisons() {
-    if (f_.comparisons.empty()) return;
+    if (f_.comparisons.empty() && f_.not_compared.empty()) return;
     html_ +=
         "<h2>Variants</h2><div class='wide'><table><tr><th class='word'>result</th>"
         "<th class='word'>ratio of means</th><th class='word'>where</th><th>ratio</th></tr>";
@@ -232,6 +232,12 @@ class Writer {
           "<td class='word'>{}</td><td>{}</td></tr>",
           escaped(readable(table_, c.result)), escaped(f_.variant), escaped(c.variant),
           escaped(c.where.empty() ? "all" : c.where), interval(c.ratio));
+    for (const NotCompared& n : f_.not_compared)
+      html_ += fmt::format(
+          "<tr><td class='word'>{}</td><td class='word'>{} / {}</td>"
+          "<td class='word' colspan='2'>not compared: {}</td></tr>",
+          escaped(readable(table_, n.result)), escaped(f_.variant), escaped(n.variant),
+          escaped(n.why));
     html_ += "</table></div>";
   }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include "study/table/analysis.hpp"
 
+#include <atomic>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -15,8 +16,10 @@ struct Page {
 Page make_page(const Plan& plan, const Table& table, const StudyFindings& findings);
 
 /// table.csv, columns.csv, table.h5, analysis.json, study.html and figures/ in the folder of the
-/// study. Throws FileError.
+/// study. Throws FileError, and Interrupted once `stop` is set. In figures/ only those go that an
+/// earlier page, by its analysis.json, has written; a figures/ that is a link is refused.
 void write_tables(const std::filesystem::path& folder, const Plan& plan, const Table& table);
-void write_page(const std::filesystem::path& folder, const Plan& plan, const Table& table);
+void write_page(const std::filesystem::path& folder, const Plan& plan, const Table& table,
+                const std::atomic<bool>* stop = nullptr);
 
 }  // namespace flowslide::study

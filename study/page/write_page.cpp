@@ -1,10 +1,48 @@
 #include "core/files.hpp"
+#include "core/hash.hpp"
 #include "study/page/page.hpp"
-#include "workflows/engine/result_folder.hpp"
+#include "workflows/engine/names.hpp"
+
+#include <nlohmann/json.hpp>
 
 namespace fs = std::filesystem;
 
 namespace flowslide::study {
+namespace {
+
+constexpr std::uint64_t kLargest = 64u << 20;
+
+/// Digests of the figures that the page before this one has written, by file name.
+std::map<std::string, std::string> figures_before(const fs::path& analysis) {
+  std::map<std::string, std::string> figures;
+  std::string text;
+  try {
+    text = read_file(analysis, kLargest);
+  } catch (const FileError&) {
+    return figures;  // there was none, or it is not known what it wrote
+  }
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  if (!json.is_object() || !json.contains("figures")) return figures;
+  for (const auto& [name, digest] : json["figures"].items())
+    if (digest.is_string() && name.ends_with(".svg") && stays_inside(name) &&
+        name.find('/') == std::string::npos)
+      figures[name] = digest.get<std::string>();
+  return figures;
+}
+
+/// Figures of an earlier state of the study would look like its own. What the user has changed or
+/// put there stays.
+void remove_earlier(const fs::path& folder, const std::map<std::string, std::string>& earlier,
+                    const std::map<std::string, std::string>& now) {
+  for (const auto& [name, digest] : earlier) {
+    const fs::path path = folder / name;
+    std::error_code error;
+    if (now.contains(name) || !fs::is_regular_file(fs::symlink_status(path, error))) continue;
+    if (sha256(read_file(path, kLargest)) == digest) remove_path(path);
+  }
+}
+
+}  // namespace
 
 void write_tables(const fs::path& folder, const Plan&, const Table& table) {
   write_file(folder / "table.csv", to_csv(table));
@@ -12,18 +50,25 @@ void write_tables(const fs::path& folder, const Plan&, const Table& table) {
   write_hdf5(folder / "table.h5", table);
 }
 
-void write_page(const fs::path& folder, const Plan& plan, const Table& table) {
-  const StudyFindings findings = analyse(plan, table);
-  write_file(folder / "analysis.json", to_json_text(plan, findings));
+void write_page(const fs::path& folder, const Plan& plan, const Table& table,
+                const std::atomic<bool>* stop) {
+  const StudyFindings findings = analyse(plan, table, stop);
   const Page page = make_page(plan, table, findings);
-  make_folders(folder / "figures");
-  for (const auto& [name, svg] : page.figures) write_file(folder / "figures" / name, svg);
-  // Those of an earlier state of the study would look like its own.
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder / "figures", ignored))
-    if (entry.path().extension() == ".svg" &&
-        !page.figures.contains(entry.path().filename().string()))
-      fs::remove(entry.path(), ignored);
+  const fs::path figures = folder / "figures", analysis = folder / "analysis.json";
+  std::error_code error;
+  if (fs::is_symlink(fs::symlink_status(figures, error)))
+    throw FileError(
+        fmt::format("'{}' is a link (figures would be written outside the folder of the study). "
+                    "Remove it.",
+                    figures.string()));
+  make_folders(figures);
+  std::map<std::string, std::string> digests;
+  for (const auto& [name, svg] : page.figures) digests[name] = sha256(svg);
+  // What is written is listed before, and what goes is listed until it has gone: after a kill
+  // nothing of the program's is left unlisted.
+  remove_earlier(figures, figures_before(analysis), digests);
+  write_file(analysis, to_json_text(plan, findings, digests));
+  for (const auto& [name, svg] : page.figures) write_file(figures / name, svg);
   write_file(folder / "study.html", page.html);
 }
 

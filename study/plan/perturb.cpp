@@ -28,8 +28,14 @@ std::optional<YamlNode> find_path(YamlNode node, std::string_view path) {
 
 void scale(Settings& set, const YamlNode& node, const std::string& path, double change) {
   Amount amount = read_amount(node);
+  const std::string before = exact_text(amount);
   amount.value *= 1.0 + change;
   set.emplace_back(path, exact_text(amount));
+  if (set.back().second == before)
+    throw node.error(fmt::format(
+        "{} is the same number after a change by the share of {:g} (a repeat would show a scatter "
+        "of zero). Give the repeat a larger step, or another setting.",
+        before, change));
 }
 
 struct Stage {

@@ -6,25 +6,69 @@
 #include "study/plan/yaml_read.hpp"
 
 #include <algorithm>
+#include <any>
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
 #include <sstream>
 
+#include <fmt/format.h>
+
 namespace flowslide::study {
 namespace {
 
-/// The same stage types, which read equal settings once: rows differ in few of them.
+/// What the preview of a stage returned and found.
+struct Seen {
+  std::any value;
+  Findings found;
+};
+using SharedSeen = std::shared_ptr<const Seen>;
+
+using Preview = std::function<std::any(const Previews&, Findings&)>;
+
+/// A preview that looks once at what is equal, and passes on that it did: between the stages of the
+/// planner previews are SharedSeen, whose address tells whether they are the same. `settings` are
+/// those of the stage.
+Preview remembering(Preview preview, std::string settings,
+                    const std::shared_ptr<std::map<std::string, SharedSeen>>& known) {
+  if (!preview) return preview;
+  return [preview = std::move(preview), settings = std::move(settings), known](
+             const Previews& in, Findings& found) -> std::any {
+    std::string text = settings;
+    for (const auto& [port, value] : in)
+      text += fmt::format("\n{} {}", port, fmt::ptr(std::any_cast<const SharedSeen&>(value).get()));
+    auto it = known->find(text);
+    if (it == known->end()) {
+      Previews plain;
+      for (const auto& [port, value] : in)
+        plain[port] = std::any_cast<const SharedSeen&>(value)->value;
+      const auto seen = std::make_shared<Seen>();
+      seen->value = preview(plain, seen->found);
+      it = known->emplace(std::move(text), seen).first;
+    }
+    const Findings& said = it->second->found;
+    found.errors.insert(found.errors.end(), said.errors.begin(), said.errors.end());
+    found.warnings.insert(found.warnings.end(), said.warnings.begin(), said.warnings.end());
+    return it->second;
+  };
+}
+
+/// The same stage types, which read equal settings once, and look once at what these say of equal
+/// inputs: rows differ in few of them.
 std::vector<StageType> remembering(std::span<const StageType> types) {
   std::vector<StageType> result(types.begin(), types.end());
   for (StageType& type : result) {
     const auto known = std::make_shared<std::map<std::string, PreparedStage>>();
-    type.prepare = [known, prepare = type.prepare](const std::optional<YamlNode>& with,
-                                                   const YamlNode& stage) {
+    const auto seen = std::make_shared<std::map<std::string, SharedSeen>>();
+    type.prepare = [known, seen, prepare = type.prepare](const std::optional<YamlNode>& with,
+                                                         const YamlNode& stage) {
       const std::string text =
           stage.folder().string() + "\n" + (with ? flow_text(*with) : std::string());
       if (const auto it = known->find(text); it != known->end()) return it->second;
-      return known->emplace(text, prepare(with, stage)).first->second;
+      PreparedStage prepared = prepare(with, stage);
+      prepared.preview = remembering(std::move(prepared.preview), text, seen);
+      return known->emplace(text, std::move(prepared)).first->second;
     };
   }
   return result;
@@ -63,6 +107,7 @@ class Planner {
     row.values = draft.values;
     row.repeat = draft.repeat;
     row.overrides = as_overrides(draft.set);
+    if (draft.repeat == 0) undisturbed_.clear();
     try {
       if (draft.repeat > 0)
         row.disturbed = perturbations(load_yaml(row.workflow, row.overrides), *draft.part->repeat,
@@ -75,6 +120,7 @@ class Planner {
               plan_.programs.end())
             plan_.programs.push_back(program);
       add_nodes(row, workflow);
+      expect_disturbed(row, draft);
     } catch (const Error& e) {
       row.problem = located(e.what(), draft);
       row.code = e.exit_code();
@@ -87,6 +133,20 @@ class Planner {
   }
 
  private:
+  /// A realisation that computes what the undisturbed one does would show a scatter of zero.
+  void expect_disturbed(Row& row, const Draft& draft) {
+    if (draft.repeat == 0) {
+      undisturbed_ = row.nodes;
+      return;
+    }
+    if (row.nodes != undisturbed_) return;
+    row.nodes.clear();
+    throw InputError(
+        fmt::format("{}: realisation {} is the undisturbed one again (the step is lost in the "
+                    "digits of what it disturbs, and the scatter would be zero). Make it larger.",
+                    draft.part->repeat->place, draft.repeat));
+  }
+
   void add_nodes(Row& row, const Workflow& workflow) {
     for (const WorkflowStage& stage : workflow.stages) {
       Node node{.stage = {}, .before = {}, .recipe = {}, .row = row.number - 1};
@@ -128,12 +188,14 @@ class Planner {
     plain.prepared.run = {};
     plain.prepared.preview = {};
     plain.prepared.files.clear();
+    plain.preview.reset();
     return plain;
   }
 
   Plan& plan_;
   std::vector<StageType> types_;
   std::map<std::string, std::size_t> by_recipe_;
+  std::vector<std::size_t> undisturbed_;  ///< nodes of realisation 0 of the row at hand
 };
 
 void add_input(std::vector<Input>& inputs, Input input) {
@@ -171,6 +233,13 @@ std::string problems_of(const Plan& plan) {
 
 }  // namespace
 
+std::vector<std::size_t> Node::reads() const {
+  if (stage.type.reads_earlier) return before;
+  std::vector<std::size_t> nodes;
+  for (const Link& link : stage.inputs) nodes.push_back(before[link.from_stage]);
+  return nodes;
+}
+
 std::string Row::label() const {
   std::string text = variant == "base" ? "" : variant;
   for (const auto& [name, value] : values)
@@ -199,6 +268,8 @@ Plan make_plan(const StudyFile& study, std::span<const StageType> types) {
   }
   Planner planner(plan, types);
   for (const Draft& draft : expand(study)) planner.add(draft);
+  validate(!plan.rows.empty(), "{}: has no rows (there is nothing to compute). Give a value.",
+           study.file.string());
   if (std::all_of(plan.rows.begin(), plan.rows.end(),
                   [](const Row& row) { return !row.problem.empty(); })) {
     const int code = plan.rows.front().code;

@@ -16,6 +16,8 @@ struct Node {
   std::vector<std::size_t> before;  ///< nodes that feed it, directly or not, in their order
   std::string recipe;               ///< SHA-256 of all the above
   std::size_t row = 0;              ///< the first that needs it
+  /// Nodes whose files it reads: of its links, or of all before it.
+  [[nodiscard]] std::vector<std::size_t> reads() const;
 };
 
 struct Row {

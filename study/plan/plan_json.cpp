@@ -1,11 +1,13 @@
 #include "study/plan/plan.hpp"
+#include "study/plan/yaml_read.hpp"
+#include "workflows/engine/names.hpp"
 
 #include <algorithm>
 
 namespace flowslide::study {
 namespace {
 
-constexpr int kSchema = 1;
+constexpr int kSchema = 2;
 
 Json settings_json(const Settings& settings) {
   Json list = Json::array();
@@ -56,6 +58,7 @@ Json node_json(const Node& node) {
           {"version", stage.type.version},
           {"checkpoints", stage.type.checkpoints},
           {"reads_warnings", stage.type.reads_warnings},
+          {"reads_earlier", stage.type.reads_earlier},
           {"inputs", ports_json(stage.type.inputs)},
           {"outputs", ports_json(stage.type.outputs)},
           {"settings", stage.prepared.settings},
@@ -74,6 +77,7 @@ Node node_from(const Json& json) {
   stage.type.version = small_from(json.at("version"));
   stage.type.checkpoints = json.at("checkpoints");
   stage.type.reads_warnings = json.at("reads_warnings");
+  stage.type.reads_earlier = json.at("reads_earlier");
   stage.type.inputs = ports_from(json.at("inputs"));
   stage.type.outputs = ports_from(json.at("outputs"));
   stage.prepared.settings = json.at("settings");
@@ -84,6 +88,8 @@ Node node_from(const Json& json) {
   }
   stage.warnings = json.at("warnings").get<std::vector<std::string>>();
   node.recipe = json.at("recipe");
+  validate(is_name(stage.name), "'{}' is no name of a stage", stage.name);
+  validate(is_digest(node.recipe), "'{}' is no digest", node.recipe);
   node.row = index_from(json.at("row"));
   return node;
 }
@@ -157,11 +163,13 @@ Plan plan_from(const Json& json) {
     input.settings = i.at("settings").get<std::vector<std::string>>();
     if (!i.at("unit").is_null()) input.unit = i.at("unit").get<std::string>();
     input.sampled = i.at("sampled");
+    for (const std::string& path : input.settings)
+      validate(is_path(path), "'{}' is no path of a setting", path);
   }
   for (const Json& node : json.at("nodes")) {
     plan.nodes.push_back(node_from(node));
     for (const std::size_t before : plan.nodes.back().before)
-      validate(before + 1 < plan.nodes.size(), "a stage comes before what feeds it");
+      validate(before < plan.nodes.size() - 1, "a stage comes before what feeds it");
   }
   for (const Json& row : json.at("rows")) {
     plan.rows.push_back(row_from(row));

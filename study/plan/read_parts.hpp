@@ -5,7 +5,8 @@
 /// Keys of a study file, one function each. All throw InputError with the place.
 namespace flowslide::study {
 
-Settings read_set(const YamlNode& node);
+/// Adds to `set` and to the places of its entries in a part.
+void read_set(const YamlNode& node, Part& part);
 std::vector<Variable> read_vary(const YamlNode& node);
 Sample read_sample(const YamlNode& node);
 Repeat read_repeat(const YamlNode& node);

@@ -18,6 +18,12 @@ double read_step(const YamlNode& node) {
   return step;
 }
 
+double read_scale(const YamlNode& node) {
+  const double step = read_step(node);
+  if (step == 0.0) throw node.error("is no step (nothing would be disturbed). Give one above 0.");
+  return step;
+}
+
 }  // namespace
 
 Repeat read_repeat(const YamlNode& node) {
@@ -43,8 +49,10 @@ Repeat read_repeat(const YamlNode& node) {
     repeat.grid = grid->scalar() == "true";
   }
   if (scale)
-    for (const auto& [path, step] : scale->entries())
-      repeat.scale.emplace_back(path, read_step(step));
+    for (const auto& [path, step] : scale->entries()) {
+      expect_path(step, path);
+      repeat.scale.emplace_back(path, read_scale(step));
+    }
   if (const auto rows = node.find("rows"))
     for (const auto& [name, labels] : rows->entries()) repeat.rows[name] = read_texts(labels);
   return repeat;

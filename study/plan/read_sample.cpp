@@ -120,6 +120,8 @@ Sample read_sample(const YamlNode& node) {
     sample.seed = read_count(*seed, 0, static_cast<std::size_t>(1) << 62u);
   for (const auto& [name, input] : need(node, "inputs", "what is sampled?").entries())
     sample.inputs.push_back(read_input(name, input));
+  if (sample.inputs.empty())
+    throw node.find("inputs")->error("is empty (nothing is sampled). Name an input.");
   if (const auto pairs = node.find("correlations")) read_correlations(sample, *pairs);
   return sample;
 }

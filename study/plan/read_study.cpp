@@ -1,3 +1,4 @@
+#include "core/files.hpp"
 #include "core/units.hpp"
 #include "study/plan/read_parts.hpp"
 #include "study/plan/yaml_read.hpp"
@@ -16,7 +17,7 @@ const std::vector<std::string> kStudyKeys{"workflow", "set",  "vary", "sample", 
 
 /// Each name stands for one column of the table.
 void expect_names(const Part& part, const YamlNode& node) {
-  std::set<std::string> seen{"row", "id", "variant", "repeat", "state"};
+  std::set<std::string> seen{"row", "id", "variant", "repeat", "state", "cause"};
   const auto take = [&](const std::string& name) {
     if (!is_name(name))
       throw node.error(
@@ -46,44 +47,54 @@ void expect_names(const Part& part, const YamlNode& node) {
   }
 }
 
-/// A part with its workflow; `above` gives what it does not say itself.
-Part read_part(const YamlNode& node, const std::string& variant, const YamlNode& workflow,
-               const Settings& set) {
-  Part part{.variant = variant,
-            .workflow = (workflow.folder() / workflow.scalar()).lexically_normal(),
-            .set = set,
-            .vary = {},
-            .sample = {},
-            .repeat = {}};
+/// Adds a part with its workflow to the study; `above` gives what it does not say itself.
+void add_part(StudyFile& study, const YamlNode& node, const std::string& variant,
+              const YamlNode& workflow, Part above) {
+  if (!is_name(variant))
+    throw node.error(
+        fmt::format("'{}' cannot be the name of a variant (it stands in the table). Use letters, "
+                    "digits, '-' and '_'.",
+                    variant));
+  if (std::any_of(study.parts.begin(), study.parts.end(),
+                  [&](const Part& part) { return part.variant == variant; }))
+    throw node.error(fmt::format(
+        "there are two variants '{}' (their rows could not be told apart). Choose another name.",
+        variant));
+  Part& part = study.parts.emplace_back(std::move(above));
+  part.variant = variant;
+  part.workflow = (workflow.folder() / workflow.scalar()).lexically_normal();
   if (const auto vary = node.find("vary")) part.vary = read_vary(*vary);
   if (const auto sample = node.find("sample")) part.sample = read_sample(*sample);
   if (const auto repeat = node.find("repeat")) part.repeat = read_repeat(*repeat);
   expect_names(part, node);
-  return part;
+  try {
+    expect_regular_file(part.workflow);
+  } catch (const FileError& e) {
+    throw FileError(workflow.error(e.what()).what());
+  }
 }
 
 void read_parts(StudyFile& study, const YamlNode& node) {
   const YamlNode workflow = need(node, "workflow", "a study varies a workflow");
-  Settings set;
-  if (const auto given = node.find("set")) set = read_set(*given);
-  if (workflow.kind() == YamlNode::Kind::map) {
-    for (const auto& [name, path] : workflow.entries())
-      study.parts.push_back(read_part(node, name, path, set));
+  const bool several = workflow.kind() == YamlNode::Kind::map;
+  Part above;
+  if (const auto given = node.find("set")) read_set(*given, above);
+  if (several) {
+    for (const auto& [name, path] : workflow.entries()) add_part(study, node, name, path, above);
+    if (study.parts.empty())
+      throw workflow.error("is empty (a study varies a workflow). Name one.");
   } else {
-    study.parts.push_back(read_part(node, "base", workflow, set));
+    add_part(study, node, "base", workflow, above);
   }
   const auto also = node.find("also");
   if (!also) return;
   for (const auto& [name, more] : also->entries()) {
     allow_keys(more, {"workflow", "set", "vary", "sample", "repeat"});
     const auto own = more.find("workflow");
-    if (!own && workflow.kind() == YamlNode::Kind::map)
-      throw more.error("has no 'workflow' (the study has several). Name one.");
-    Settings own_set;
-    if (!own) own_set = set;
-    if (const auto given = more.find("set"))
-      for (auto& entry : read_set(*given)) own_set.push_back(std::move(entry));
-    study.parts.push_back(read_part(more, name, own.value_or(workflow), own_set));
+    if (!own && several) throw more.error("has no 'workflow' (the study has several). Name one.");
+    Part from = own ? Part{} : above;
+    if (const auto given = more.find("set")) read_set(*given, from);
+    add_part(study, more, name, own.value_or(workflow), std::move(from));
   }
 }
 
@@ -113,7 +124,11 @@ void read_limits(StudyFile& study, const YamlNode& node) {
 
 void read_analysis(StudyFile& study, const YamlNode& node) {
   allow_keys(node, {"results", "thresholds", "seed"});
-  if (const auto results = node.find("results")) study.analysis.results = read_texts(*results);
+  if (const auto results = node.find("results")) {
+    study.analysis.results = read_texts(*results);
+    for (std::size_t i = 0; i < results->size(); ++i) (void)results->item(i).scalar();
+    if (results->kind() != YamlNode::Kind::list) (void)results->scalar();
+  }
   if (const auto seed = node.find("seed"))
     study.analysis.seed = read_count(*seed, 0, static_cast<std::size_t>(1) << 62u);
   const auto pairs = node.find("thresholds");

@@ -96,11 +96,7 @@ void read_zip(Variable& variable, const YamlNode& node) {
   allow_keys(node, {"zip", "labels"});
   const YamlNode zip = *node.find("zip");
   for (const auto& [path, values] : zip.entries()) {
-    if (!path.starts_with("stages."))
-      throw values.error(
-          fmt::format("'{}' is no path of a setting. Write it as in "
-                      "stages.map.with.c_soft_ratio.",
-                      path));
+    expect_path(values, path);
     if (values.kind() != YamlNode::Kind::list || values.size() == 0)
       throw values.error("is no list (lists are zipped item by item). Write [a, b].");
     if (variable.settings.empty()) variable.choices.resize(values.size());
@@ -116,6 +112,7 @@ void read_zip(Variable& variable, const YamlNode& node) {
     }
     variable.settings.push_back(path);
   }
+  if (variable.settings.empty()) throw zip.error("is empty (nothing is zipped). Name settings.");
   if (const auto labels = node.find("labels")) {
     const std::vector<std::string> names = read_texts(*labels);
     if (names.size() != variable.choices.size())
@@ -188,23 +185,20 @@ void read_table(Variable& variable, const YamlNode& node) {
           variable.choices[choice++].set.emplace_back(path, lines[i][cell]);
     }
   }
+  if (variable.settings.empty())
+    throw columns.error("is empty (no column would set anything). Name a setting.");
 }
 
 }  // namespace
 
 std::string place_of(const YamlNode& node) { return node.key_where().text(); }
 
-Settings read_set(const YamlNode& node) {
-  Settings set;
+void read_set(const YamlNode& node, Part& part) {
   for (const auto& [path, value] : node.entries()) {
-    if (!path.starts_with("stages."))
-      throw value.error(
-          fmt::format("'{}' is no path of a setting. Write it as in "
-                      "stages.map.with.c_soft_ratio.",
-                      path));
-    set.emplace_back(path, flow_text(value));
+    expect_path(value, path);
+    part.set.emplace_back(path, flow_text(value));
+    part.places.push_back(place_of(value));
   }
-  return set;
 }
 
 std::vector<Variable> read_vary(const YamlNode& node) {

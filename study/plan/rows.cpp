@@ -56,8 +56,7 @@ bool is_repeated(const Draft& row, const Repeat& repeat) {
 std::vector<Draft> expand(const StudyFile& study) {
   std::vector<Draft> all;
   for (const Part& part : study.parts) {
-    Draft first{.part = &part, .values = {}, .set = part.set, .places = {}, .repeat = 0};
-    first.places.resize(part.set.size());
+    Draft first{.part = &part, .values = {}, .set = part.set, .places = part.places, .repeat = 0};
     std::vector<Draft> rows{first};
     const auto expect_few = [&](std::size_t factor) {
       validate(rows.size() * factor + all.size() <= kMostRows,

@@ -63,6 +63,7 @@ struct Part {
   std::string variant;  ///< "base", or its name under `also`
   std::filesystem::path workflow;
   Settings set;
+  std::vector<std::string> places;  ///< where each entry of `set` was written
   std::vector<Variable> vary;
   std::optional<Sample> sample;
   std::optional<Repeat> repeat;

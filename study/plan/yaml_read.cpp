@@ -87,14 +87,23 @@ std::vector<std::string> read_texts(const YamlNode& node) {
   return texts;
 }
 
+bool is_path(std::string_view setting) {
+  constexpr std::string_view kBegin = "stages.";
+  return setting.starts_with(kBegin) && setting.size() > kBegin.size() &&
+         setting.find('=') == std::string_view::npos;
+}
+
+void expect_path(const YamlNode& place, const std::string& path) {
+  if (!is_path(path))
+    throw place.error(fmt::format(
+        "'{}' is no path of a setting (a path begins with the stages of the workflow). Write it "
+        "as in stages.map.with.c_soft_ratio.",
+        path));
+}
+
 std::vector<std::string> read_settings_paths(const YamlNode& node) {
   std::vector<std::string> paths = read_texts(node);
-  for (const std::string& path : paths)
-    if (!path.starts_with("stages.") || path.find('=') != std::string::npos)
-      throw node.error(fmt::format(
-          "'{}' is no path of a setting (a path begins with the stages of the workflow). Write it "
-          "as in stages.map.with.c_soft_ratio.",
-          path));
+  for (const std::string& path : paths) expect_path(node, path);
   return paths;
 }
 

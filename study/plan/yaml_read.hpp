@@ -17,6 +17,9 @@ double read_number(const YamlNode& node);
 std::size_t read_count(const YamlNode& node, std::size_t least, std::size_t most);
 /// A list of texts, or one text.
 std::vector<std::string> read_texts(const YamlNode& node);
+/// "stages." and what follows.
+bool is_path(std::string_view setting);
+void expect_path(const YamlNode& place, const std::string& path);
 /// Paths of settings: "stages.map.with.cell", or a list of them.
 std::vector<std::string> read_settings_paths(const YamlNode& node);
 /// Whatever the value is, as text that YAML reads back as the same.

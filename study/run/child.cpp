@@ -9,6 +9,7 @@
 #include <cstring>
 #include <exception>
 #include <fcntl.h>
+#include <new>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -32,6 +33,9 @@ int run(const std::function<int()>& body) {
   } catch (const Error& e) {
     fmt::print(stderr, "error: {}\n", e.what());
     return e.exit_code();
+  } catch (const std::bad_alloc&) {
+    std::fputs("error: out of memory\n", stderr);
+    return 4;
   } catch (const std::exception& e) {
     fmt::print(stderr, "error: internal error: {}\n", e.what());
     return 3;

@@ -3,11 +3,12 @@
 #include "study/run/final_state.hpp"
 #include "study/run/locks.hpp"
 #include "study/run/study_state.hpp"
+#include "workflows/engine/earlier.hpp"
 #include "workflows/engine/result_folder.hpp"
 #include "workflows/engine/run_stage.hpp"
 #include "workflows/engine/sealed_json.hpp"
 #include "workflows/engine/session.hpp"
-#include "workflows/engine/warnings.hpp"
+#include "workflows/engine/stage_inputs.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -27,92 +28,85 @@ double peak_memory() {
   return static_cast<double>(usage.ru_maxrss) * 1024.0;
 }
 
-std::size_t index_of(const Workflow& workflow, const std::string& stage) {
-  for (std::size_t i = 0; i < workflow.stages.size(); ++i)
-    if (workflow.stages[i].name == stage) return i;
-  throw InputError(
-      fmt::format("{}: has no stage '{}' (the workflow has changed since the study "
-                  "began). Run the study again.",
-                  workflow.file.string(), stage));
-}
-
-/// The stages before one, in the order of the workflow, as the store knows them.
-class Results {
- public:
-  Results(const Workflow& workflow, const Store& store)
-      : workflow_(workflow), records_(workflow.stages.size()), store_(store) {}
-
-  /// Key of a stage; looks at all that feed it first.
-  std::string key(std::size_t stage) {
-    std::vector<const StageRecord*> known;
-    for (std::size_t i = 0; i < stage; ++i) known.push_back(feeds(stage, i) ? &record(i) : nullptr);
-    inputs_ = inputs_of(workflow_, stage, known);
-    warnings_ = earlier_warnings(workflow_, workflow_.stages[stage], known);
-    const WorkflowStage& s = workflow_.stages[stage];
-    return stage_key(s.type, s.prepared.settings, inputs_);
-  }
-  /// Of the stage whose key was asked for last.
-  [[nodiscard]] const std::map<std::string, std::string>& inputs() const { return inputs_; }
-  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
-
-  const StageRecord& record(std::size_t stage) {
-    if (!records_[stage]) {
-      const std::string& name = workflow_.stages[stage].name;
-      const std::string stage_key = key(stage);
-      auto finished = store_.finished(name, stage_key);
-      if (!finished)
-        throw FileError(
-            fmt::format("{}: has no result yet (it feeds another stage). Run the study "
-                        "again.",
-                        name));
-      records_[stage] = std::move(finished->record);
-    }
-    return *records_[stage];
-  }
-
- private:
-  [[nodiscard]] bool feeds(std::size_t stage, std::size_t earlier) const {
-    return std::any_of(workflow_.stages[stage].inputs.begin(), workflow_.stages[stage].inputs.end(),
-                       [&](const Link& link) {
-                         return link.from_stage == earlier ||
-                                (link.from_stage > earlier && feeds(link.from_stage, earlier));
-                       });
-  }
-
-  const Workflow& workflow_;
-  std::vector<std::optional<StageRecord>> records_;
-  const Store& store_;
-  std::map<std::string, std::string> inputs_;
-  std::vector<std::string> warnings_;
+/// A stage and the results of all that feed it, as the store knows them.
+struct Ready {
+  std::string key;
+  StageInputs inputs;
+  std::vector<std::optional<StageRecord>> results;  ///< by index of stage
 };
 
+/// Nothing where a stage before it has no result with the key that the workflow, as it now is,
+/// gives it.
+std::optional<Ready> look_up(const Workflow& workflow, std::size_t stage, const Store& store) {
+  Ready ready;
+  const std::vector<bool> feeds = feeding_stages(workflow, workflow.stages[stage]);
+  ready.results.resize(stage);
+  for (std::size_t i = 0; i <= stage; ++i) {
+    if (i < stage && !feeds[i]) continue;
+    const WorkflowStage& s = workflow.stages[i];
+    std::vector<const StageRecord*> known;
+    for (std::size_t k = 0; k < i; ++k)
+      known.push_back(ready.results[k] ? &*ready.results[k] : nullptr);
+    ready.inputs = inputs_before(workflow, s, known, store.folder());
+    ready.key = stage_key(s.type, s.prepared.settings, ready.inputs.hashes);
+    if (i == stage) break;
+    auto finished = store.finished(s.name, ready.key);
+    if (!finished) return std::nullopt;
+    ready.results[i] = std::move(finished->record);
+  }
+  return ready;
+}
+
+/// The stages whose files a stage reads.
+std::vector<std::size_t> read_stages(const Workflow& workflow, const WorkflowStage& stage) {
+  std::vector<bool> reads(workflow.stages.size(), false);
+  if (stage.type.reads_earlier) reads = feeding_stages(workflow, stage);
+  for (const Link& link : stage.inputs) reads[link.from_stage] = true;
+  std::vector<std::size_t> stages;
+  for (std::size_t i = 0; i < reads.size(); ++i)
+    if (reads[i]) stages.push_back(i);
+  return stages;
+}
+
+/// Are the files of a result those of its record? `files` takes them.
+bool is_whole(const StageRecord& from, const fs::path& folder, std::vector<HashedFile>& files) {
+  const RecordRead read = read_record(folder);
+  if (!read.record || read.record->key != from.key) return false;
+  Verified verified = verify(*read.record, folder);
+  files = std::move(verified.files);
+  return verified.problems.empty() &&
+         std::all_of(from.outputs.begin(), from.outputs.end(), [&](const OutputRecord& promised) {
+           return content_hash(read.record->files, promised.file) == promised.sha256;
+         });
+}
+
 /// Reads the files of the inputs. The name of a stage whose files are not those of its record.
-std::optional<std::string> read_inputs(const WorkflowStage& stage, const Workflow& workflow,
-                                       Results& results, const Store& store, StageInputs& inputs) {
-  for (const Link& link : stage.inputs) {
-    const StageRecord& from = results.record(link.from_stage);
+std::optional<std::string> read_inputs(const WorkflowStage& stage,
+                                       const std::vector<std::size_t>& reads, Ready& ready,
+                                       const Store& store) {
+  for (const std::size_t index : reads) {
+    const StageRecord& from = *ready.results[index];
     const fs::path folder = store.result(from.stage, from.key);
-    const RecordRead read = read_record(folder);
-    if (!read.record) return workflow.stages[link.from_stage].name;
-    const Verified verified = verify(*read.record, folder);
-    const auto output = [&](const StageRecord& record) {
-      return *std::find_if(record.outputs.begin(), record.outputs.end(),
-                           [&](const OutputRecord& o) { return o.port == link.from_port; });
-    };
-    const OutputRecord promised = output(from);
-    if (!verified.problems.empty() || read.record->key != from.key ||
-        content_hash(read.record->files, promised.file) != promised.sha256)
-      return workflow.stages[link.from_stage].name;
-    inputs.paths[link.port] = folder / promised.file;
-    for (HashedFile& file : files_of_output(verified.files, folder / promised.file))
-      inputs.files.push_back(std::move(file));
+    std::vector<HashedFile> files;
+    if (!is_whole(from, folder, files)) return from.stage;
+    for (const Link& link : stage.inputs) {
+      if (link.from_stage != index) continue;
+      const auto output =
+          std::find_if(from.outputs.begin(), from.outputs.end(),
+                       [&](const OutputRecord& o) { return o.port == link.from_port; });
+      ready.inputs.paths[link.port] = folder / output->file;
+      for (HashedFile& file : files_of_output(files, folder / output->file))
+        ready.inputs.files.push_back(std::move(file));
+    }
   }
   return std::nullopt;
 }
 
 /// A result that was made again must be the one that was there: numbers of the table stand on it.
-void expect_same(const std::optional<Finished>& before, const StageRecord& now) {
-  if (!before) return;
+/// But for those that tell the day; no stage reads these.
+void expect_same(const std::optional<Finished>& before, const StageRecord& now,
+                 const StageType& type) {
+  if (!before || type.dated) return;
   for (const OutputRecord& o : before->record.outputs)
     for (const OutputRecord& n : now.outputs)
       if (o.port == n.port && o.sha256 != n.sha256)
@@ -160,36 +154,34 @@ Job job_from(const std::string& text) {
   }
 }
 
-JobResult run_job(const Job& job, std::span<const StageType> types, const std::atomic<bool>* stop,
-                  const Report& report) {
+namespace {
+
+JobResult run_in(const Job& job, const Workflow& workflow, const std::atomic<bool>* stop,
+                 const Report& report) {
   const Store store(job.store);
-  const Workflow workflow = load_workflow(job.workflow, job.overrides, types);
-  const std::size_t index = index_of(workflow, job.stage);
-  const WorkflowStage& stage = workflow.stages[index];
+  const auto found = std::find_if(workflow.stages.begin(), workflow.stages.end(),
+                                  [&](const WorkflowStage& s) { return s.name == job.stage; });
+  if (found == workflow.stages.end()) return {JobEnd::changed, {}};
+  const WorkflowStage& stage = *found;
+  auto ready = look_up(workflow, static_cast<std::size_t>(found - workflow.stages.begin()), store);
+  if (!ready || ready->key != job.key) return {JobEnd::changed, {}};
+  const std::string& key = ready->key;
   for (const std::string& program : stage.prepared.programs)
     validate(std::find(job.allowed_programs.begin(), job.allowed_programs.end(), program) !=
                  job.allowed_programs.end(),
              "{}: would start '{}' without permission", stage.name, program);
-  Results results(workflow, store);
-  const std::string key = results.key(index);
-  validate(
-      key == job.key,
-      "{}: its settings or inputs have changed since the study began (the row would not be what "
-      "the table says). Run the study again.",
-      stage.name);
-  StageInputs inputs{
-      .hashes = results.inputs(), .paths = {}, .files = {}, .warnings = results.warnings()};
 
   Locks locks(job.store);
-  for (const Link& link : stage.inputs)
-    if (!locks.take_shared(results.record(link.from_stage).key)) return {JobEnd::busy, {}};
+  const std::vector<std::size_t> reads = read_stages(workflow, stage);
+  for (const std::size_t index : reads)
+    if (!locks.take_shared(ready->results[index]->key)) return {JobEnd::busy, {}};
   if (!locks.take(key)) return {JobEnd::busy, {}};
   const auto before = store.finished(stage.name, key);
   if (before && store.has_files(stage.name, key)) return {JobEnd::found, {}};
 
-  if (const auto damaged = read_inputs(stage, workflow, results, store, inputs))
+  if (const auto damaged = read_inputs(stage, reads, *ready, store))
     return {JobEnd::damaged, *damaged};
-  const Decision decision = decide(job.store, stage, inputs.hashes, std::nullopt);
+  const Decision decision = decide(job.store, stage, ready->inputs.hashes, std::nullopt);
   Finished finished;
   if (decision.action == Action::reuse) {
     finished.record = *decision.record;
@@ -200,14 +192,28 @@ JobResult run_job(const Job& job, std::span<const StageType> types, const std::a
     events.progress = [&](std::string_view, double fraction, std::string_view text) {
       report(fraction, text);
     };
-    finished.record = run_stage(stage, decision, inputs, options, events).record;
+    finished.record = run_stage(stage, decision, ready->inputs, options, events).record;
   }
   finished.peak_memory = peak_memory();
-  expect_same(before, finished.record);
+  expect_same(before, finished.record, stage.type);
   if (job.final_state) keep_final_state(store, finished.record, stage.type);
   store.write(finished);
   store.forget_failure(stage.name, key);
   return {decision.action == Action::reuse ? JobEnd::found : JobEnd::made, {}};
+}
+
+}  // namespace
+
+JobResult run_job(const Job& job, std::span<const StageType> types, const std::atomic<bool>* stop,
+                  const Report& report) {
+  std::optional<Workflow> workflow;
+  try {
+    workflow = load_workflow(job.workflow, job.overrides, types);
+  } catch (const InputError&) {
+    // It could be read when the study was planned.
+    return {JobEnd::changed, {}};
+  }
+  return run_in(job, *workflow, stop, report);
 }
 
 JobResult run_job_aloud(const Job& job, std::span<const StageType> types,
@@ -229,6 +235,9 @@ JobResult run_job_aloud(const Job& job, std::span<const StageType> types,
       break;
     case JobEnd::busy:
       fmt::print("busy\n");
+      break;
+    case JobEnd::changed:
+      fmt::print("changed\n");
       break;
     case JobEnd::damaged:
       fmt::print("damaged {}\n", result.stage);

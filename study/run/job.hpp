@@ -30,6 +30,7 @@ enum class JobEnd {
   found,    ///< another process was faster
   busy,     ///< another process is at it
   damaged,  ///< the files of an input are not what they were
+  changed,  ///< the workflow, or a file it names, is no longer that of the plan
 };
 
 struct JobResult {
@@ -40,8 +41,7 @@ struct JobResult {
 using Report = std::function<void(double fraction, std::string_view text)>;
 
 /// Computes the stage from the results of those before it, and writes what it found beside the
-/// result. Throws what stages throw; FileError where a result is missing, InputError if the key is
-/// another one.
+/// result. Throws what stages throw, and FileError.
 JobResult run_job(const Job& job, std::span<const StageType> types, const std::atomic<bool>* stop,
                   const Report& report);
 

@@ -95,6 +95,7 @@ class Pool {
         options_(options),
         events_(events),
         locks_(store.folder()),
+        tidier_(plan, store, locks_),
         damages_(plan.nodes.size(), 0),
         not_before_(plan.nodes.size()) {
     for (std::size_t n = 0; n < plan.nodes.size(); ++n)
@@ -102,18 +103,20 @@ class Pool {
         costs_.learn(plan.nodes[n].stage.type.name, *progress.node(n).finished);
   }
 
-  void run() {
+  PoolEnd run() {
     store_.sweep();
-    (void)tidy(plan_, store_, progress_, locks_);
+    tidier_.tidy(progress_);
     for (;;) {
       if (stop()) {
         tell_all();
         if (running_.empty())
           throw Interrupted("stopped; the same command continues where the stages were.");
-      } else {
+      } else if (outdated_ && running_.empty()) {
+        return PoolEnd::outdated;
+      } else if (!outdated_) {
         launch();
       }
-      if (running_.empty() && !is_work_left()) break;
+      if (running_.empty() && !is_work_left()) return PoolEnd::done;
       wait();
       for (auto r = running_.begin(); r != running_.end();) {
         listen(*r);
@@ -172,8 +175,7 @@ class Pool {
   /// Asks for the files of the inputs where they have gone; true if they are all there.
   bool inputs_here(std::size_t n) {
     bool here = true;
-    for (const Link& link : plan_.nodes[n].stage.inputs) {
-      const std::size_t from = plan_.nodes[n].before[link.from_stage];
+    for (const std::size_t from : plan_.nodes[n].reads()) {
       NodeState& node = progress_.node(from);
       if (store_.has_files(stage(from), node.key)) continue;
       here = false;
@@ -193,6 +195,7 @@ class Pool {
       const std::vector<std::size_t> list = candidates();
       for (const std::size_t n : list) {
         if (running_.size() >= options_.jobs) return;
+        if (!fits(n)) continue;
         if (locks_.is_taken(progress_.node(n).key)) {
           not_before_[n] = Clock::now() + std::chrono::milliseconds(500);
           continue;
@@ -201,7 +204,6 @@ class Pool {
           changed = true;
           continue;
         }
-        if (!fits(n)) continue;
         start(n, list.size());
       }
       // What was asked for again becomes a candidate only once.
@@ -263,7 +265,7 @@ class Pool {
     (void)r.child.read_errors();
     std::istringstream lines(r.child.read_output());
     for (std::string line; std::getline(lines, line);) {
-      if (line == "made" || line == "found" || line == "busy") r.end = line;
+      if (line == "made" || line == "found" || line == "busy" || line == "changed") r.end = line;
       if (line.starts_with("damaged ")) {
         r.end = "damaged";
         r.damaged = line.substr(8);
@@ -307,6 +309,11 @@ class Pool {
       not_before_[r.node] = Clock::now() + std::chrono::milliseconds(500);
       return;
     }
+    if (well && r.end == "changed") {
+      outdated_ = true;
+      node.state = node.finished ? State::done : State::ready;
+      return;
+    }
     if (well && r.end == "damaged" && make_again(r)) return;
     if (well && (r.end == "made" || r.end == "found")) {
       if (auto finished = store_.finished(stage(r.node), node.key)) {
@@ -316,7 +323,7 @@ class Pool {
         costs_.learn(uses(r.node), *node.finished);
         events_.ended({r.node, State::done, r.end == "found", seconds});
         progress_.resolve();
-        (void)tidy(plan_, store_, progress_, locks_);
+        tidier_.tidy(progress_);
         return;
       }
     }
@@ -339,8 +346,7 @@ class Pool {
 
   /// Makes an input anew whose files are damaged, if that has not been tried too often.
   bool make_again(const Running& r) {
-    for (const Link& link : plan_.nodes[r.node].stage.inputs) {
-      const std::size_t from = plan_.nodes[r.node].before[link.from_stage];
+    for (const std::size_t from : plan_.nodes[r.node].reads()) {
       if (stage(from) != r.damaged) continue;
       constexpr int kMost = 2;
       if (++damages_[from] > kMost) return false;
@@ -385,6 +391,8 @@ class Pool {
   const PoolOptions& options_;
   const PoolEvents& events_;
   Locks locks_;
+  Tidier tidier_;
+  bool outdated_ = false;  ///< a stage found its workflow to be another one
   WorkCosts costs_;
   std::list<Running> running_;
   std::vector<int> damages_;                   ///< how often a result was found damaged
@@ -393,10 +401,10 @@ class Pool {
 
 }  // namespace
 
-void run_pool(const Plan& plan, const Store& store, StudyState& progress,
-              const PoolOptions& options, const PoolEvents& events) {
+PoolEnd run_pool(const Plan& plan, const Store& store, StudyState& progress,
+                 const PoolOptions& options, const PoolEvents& events) {
   progress.reopen(options.retry ? Retry::all : Retry::passing);
-  Pool(plan, store, progress, options, events).run();
+  return Pool(plan, store, progress, options, events).run();
 }
 
 }  // namespace flowslide::study

@@ -47,9 +47,14 @@ struct PoolEvents {
   std::function<void(std::string_view text)> notice = [](std::string_view) {};
 };
 
+enum class PoolEnd {
+  done,      ///< nothing is left that can be computed
+  outdated,  ///< a workflow, or a file that one names, is no longer what was planned: plan again
+};
+
 /// Computes what is missing, each stage in a process of its own. A stage that fails does not stop
 /// the rest. Throws Interrupted when asked to stop, FileError where the store cannot be written.
-void run_pool(const Plan& plan, const Store& store, StudyState& progress,
-              const PoolOptions& options, const PoolEvents& events);
+PoolEnd run_pool(const Plan& plan, const Store& store, StudyState& progress,
+                 const PoolOptions& options, const PoolEvents& events);
 
 }  // namespace flowslide::study

@@ -14,10 +14,13 @@ namespace {
 constexpr int kSchema = 1;
 constexpr std::string_view kGone = ".gone";
 
-/// Two processes may clear the same away.
+/// Two processes may clear the same away, and what stays goes with the next sweep.
 void remove_waste(const fs::path& path) {
-  std::error_code ignored;
-  fs::remove_all(path, ignored);
+  try {
+    remove_path(path);
+  } catch (const FileError&) {
+    return;
+  }
 }
 
 std::optional<Json> read(const fs::path& path) {

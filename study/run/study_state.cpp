@@ -1,7 +1,7 @@
 #include "study/run/study_state.hpp"
 
 #include "workflows/engine/program_version.hpp"
-#include "workflows/engine/warnings.hpp"
+#include "workflows/engine/stage_inputs.hpp"
 
 #include <algorithm>
 
@@ -16,17 +16,6 @@ bool is_permanent(const Failure& failure) {
 
 }  // namespace
 
-std::map<std::string, std::string> inputs_of(const Workflow& workflow, std::size_t stage,
-                                             const std::vector<const StageRecord*>& results) {
-  const WorkflowStage& s = workflow.stages[stage];
-  std::map<std::string, std::string> inputs;
-  for (const Link& link : s.inputs)
-    for (const OutputRecord& output : results[link.from_stage]->outputs)
-      if (output.port == link.from_port) inputs[link.port] = output.sha256;
-  add_to_inputs(inputs, s, earlier_warnings(workflow, s, results));
-  return inputs;
-}
-
 StudyState::StudyState(const Plan& plan, const Store& store)
     : plan_(plan), store_(store), nodes_(plan.nodes.size()) {
   resolve();
@@ -38,8 +27,9 @@ std::string StudyState::key_of(std::size_t node) const {
   for (const std::size_t before : plan_.nodes[node].before)
     results.push_back(&nodes_[before].finished->record);
   const WorkflowStage& stage = plan_.nodes[node].stage;
-  return stage_key(stage.type, stage.prepared.settings,
-                   inputs_of(workflow, workflow.stages.size() - 1, results));
+  return stage_key(
+      stage.type, stage.prepared.settings,
+      inputs_before(workflow, workflow.stages.back(), results, store_.folder()).hashes);
 }
 
 void StudyState::reopen(Retry retry) {

@@ -65,9 +65,4 @@ class StudyState {
   std::vector<NodeState> nodes_;
 };
 
-/// Content hashes of the inputs of a stage, and the warnings before it where it reads them.
-/// `results` holds those of workflow.stages before it, by index.
-std::map<std::string, std::string> inputs_of(const Workflow& workflow, std::size_t stage,
-                                             const std::vector<const StageRecord*>& results);
-
 }  // namespace flowslide::study

@@ -1,32 +1,10 @@
 #include "study/run/tidy.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 namespace flowslide::study {
 namespace {
-
-struct Candidate {
-  std::size_t node = 0;
-  double bytes = 0.0, seconds = 0.0;
-};
-
-/// Nodes whose files are there and read by none that is still to run.
-std::vector<std::size_t> free_nodes(const Plan& plan, const Store& store,
-                                    const StudyState& progress) {
-  std::vector<char> needed(plan.nodes.size(), 0);
-  for (std::size_t n = 0; n < plan.nodes.size(); ++n) {
-    const NodeState& state = progress.node(n);
-    if (state.state == State::done && !state.again) continue;
-    needed[n] = 1;
-    for (const Link& link : plan.nodes[n].stage.inputs)
-      needed[plan.nodes[n].before[link.from_stage]] = 1;
-  }
-  std::vector<std::size_t> result;
-  for (std::size_t n = 0; n < plan.nodes.size(); ++n)
-    if (!needed[n] && store.has_files(plan.nodes[n].stage.name, progress.node(n).key))
-      result.push_back(n);
-  return result;
-}
 
 /// Does it hold the frames of a runout, of which the last is kept beside it?
 bool has_frames(const WorkflowStage& stage) {
@@ -34,36 +12,72 @@ bool has_frames(const WorkflowStage& stage) {
                      [](const Port& port) { return port.kind == kArtifactKind<MpmHistory>; });
 }
 
-void drop(const Plan& plan, const Store& store, const StudyState& progress, Locks& locks,
-          std::size_t node) {
-  const std::string& key = progress.node(node).key;
-  if (!locks.take(key)) return;
-  store.drop_files(plan.nodes[node].stage.name, key);
-  locks.release(key);
-}
-
 }  // namespace
 
-double tidy(const Plan& plan, const Store& store, const StudyState& progress, Locks& locks) {
-  const auto used = [&] { return bytes_of(store.folder() / "stages"); };
-  if (plan.keep == Keep::frames) return used();
-  std::vector<Candidate> rest;
-  for (const std::size_t n : free_nodes(plan, store, progress)) {
-    const WorkflowStage& stage = plan.nodes[n].stage;
-    if (plan.keep == Keep::numbers || has_frames(stage))
-      drop(plan, store, progress, locks, n);
-    else
-      rest.push_back({n, bytes_of(store.result(stage.name, progress.node(n).key)),
-                      progress.node(n).finished->record.seconds});
+Tidier::Tidier(const Plan& plan, const Store& store, Locks& locks)
+    : plan_(plan), store_(store), locks_(locks) {}
+
+void Tidier::measure(const StudyState& progress) {
+  // Equal settings have equal keys, whatever the stage is called.
+  const auto name = [&](std::size_t n) {
+    return plan_.nodes[n].stage.name + "/" + progress.node(n).key;
+  };
+  needed_.clear();
+  for (std::size_t n = 0; n < plan_.nodes.size(); ++n) {
+    const NodeState& state = progress.node(n);
+    const WorkflowStage& stage = plan_.nodes[n].stage;
+    if (state.state != State::done || state.again) {
+      needed_.insert(name(n));
+      for (const std::size_t from : plan_.nodes[n].reads()) needed_.insert(name(from));
+      kept_.erase(name(n));  // measured when it is there
+      continue;
+    }
+    const auto [it, is_new] = kept_.try_emplace(name(n));
+    if (!is_new) continue;
+    Kept& kept = it->second;
+    kept.stage = stage.name;
+    kept.key = state.key;
+    kept.bytes = bytes_of(store_.result(stage.name, state.key));
+    for (const std::string_view ending : {".json", ".final.h5"})
+      kept.beside += bytes_of(store_.beside(stage.name, state.key, ending));
+    kept.seconds = state.finished->record.seconds;
+    kept.has_frames = has_frames(stage);
   }
-  double bytes = used();
-  std::sort(rest.begin(), rest.end(), [](const Candidate& a, const Candidate& b) {
-    return a.seconds * b.bytes < b.seconds * a.bytes;
+}
+
+void Tidier::drop(Kept& kept) {
+  if (!locks_.take(kept.key)) return;
+  store_.drop_files(kept.stage, kept.key);
+  locks_.release(kept.key);
+  kept.bytes = 0.0;
+}
+
+double Tidier::tidy(const StudyState& progress) {
+  measure(progress);
+  const auto used = [&] {
+    double sum = rest_;
+    for (const auto& [key, kept] : kept_) sum += kept.bytes + kept.beside;
+    return sum;
+  };
+  if (first_) rest_ = std::max(0.0, bytes_of(store_.folder() / "stages") - used());
+  first_ = false;
+  if (plan_.keep == Keep::frames) return used();
+  std::vector<Kept*> at_once, rest;
+  for (auto& [name, kept] : kept_)
+    if (kept.bytes > 0.0 && !needed_.contains(name))
+      (plan_.keep == Keep::numbers || kept.has_frames ? at_once : rest).push_back(&kept);
+  for (Kept* kept : at_once) drop(*kept);
+  // The order of a hashed map is that of the library.
+  std::sort(rest.begin(), rest.end(), [](const Kept* a, const Kept* b) {
+    const double x = a->seconds * b->bytes, y = b->seconds * a->bytes;
+    return x != y ? x < y : std::tie(a->stage, a->key) < std::tie(b->stage, b->key);
   });
-  for (const Candidate& c : rest) {
-    if (bytes <= plan.disk_bytes) break;
-    drop(plan, store, progress, locks, c.node);
-    bytes = used();
+  double bytes = used();
+  for (Kept* kept : rest) {
+    if (bytes <= plan_.disk_bytes) break;
+    bytes -= kept->bytes;
+    drop(*kept);
+    bytes += kept->bytes;
   }
   return bytes;
 }

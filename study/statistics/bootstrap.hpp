@@ -1,6 +1,7 @@
 #pragma once
 #include "core/check.hpp"
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -13,6 +14,15 @@ struct Estimate {
   std::size_t rows = 0;
 };
 
+/// How resamples are drawn: equal seeds give equal ones.
+struct Resampling {
+  std::uint64_t seed = 1;
+  const std::atomic<bool>* stop = nullptr;  ///< polled for each resample
+  // Most have nothing but a seed.
+  Resampling(std::uint64_t s, const std::atomic<bool>* stop_requested = nullptr)  // NOLINT
+      : seed(s), stop(stop_requested) {}
+};
+
 inline constexpr std::size_t kResamples = 1000;
 
 /// A statistic of rows, given as the list of their numbers, of which some may occur several times.
@@ -20,9 +30,9 @@ using Statistic = std::function<double(const std::vector<std::size_t>& rows)>;
 
 /// Percentile bootstrap (Efron 1979): rows are drawn with repetition as often as there are rows.
 /// Resamples in which the statistic is NaN are left out; without half of them there is no interval.
-Estimate bootstrap(std::size_t rows, std::uint64_t seed, const Statistic& statistic);
+Estimate bootstrap(std::size_t rows, const Resampling& how, const Statistic& statistic);
 
-/// The statistic in each resample.
-std::vector<double> resampled(std::size_t rows, std::uint64_t seed, const Statistic& statistic);
+/// The statistic in each resample. Throws Interrupted once how.stop is set.
+std::vector<double> resampled(std::size_t rows, const Resampling& how, const Statistic& statistic);
 
 }  // namespace flowslide::study

@@ -23,13 +23,13 @@ double mean_at(const std::vector<double>& result, const std::vector<char>& end, 
 
 /// `end` is 'l' or 'h' for rows at an end.
 Effect between(const std::vector<double>& result, const std::vector<char>& end,
-               std::uint64_t seed) {
+               const Resampling& how) {
   Effect e;
   std::vector<std::size_t> all;
   for (std::size_t row = 0; row < result.size(); ++row) all.push_back(row);
   e.low = mean_at(result, end, 'l', all);
   e.high = mean_at(result, end, 'h', all);
-  e.swing = bootstrap(result.size(), seed, [&](const std::vector<std::size_t>& rows) {
+  e.swing = bootstrap(result.size(), how, [&](const std::vector<std::size_t>& rows) {
     return mean_at(result, end, 'h', rows) - mean_at(result, end, 'l', rows);
   });
   return e;
@@ -38,24 +38,28 @@ Effect between(const std::vector<double>& result, const std::vector<char>& end,
 }  // namespace
 
 Effect effect_of_number(const std::vector<double>& input, const std::vector<double>& result,
-                        std::uint64_t seed) {
+                        const Resampling& how) {
   const Pairs rows = without_gaps(input, result);
   const std::set<double> levels(rows.x.begin(), rows.x.end());
   if (levels.size() < 2) return {};
   constexpr std::size_t kFew = 3;
-  const bool few = levels.size() <= kFew;
-  const double low = few ? *levels.begin() : quantile_of(rows.x, 1.0 / 3.0);
-  const double high = few ? *levels.rbegin() : quantile_of(rows.x, 2.0 / 3.0);
+  double low = quantile_of(rows.x, 1.0 / 3.0), high = quantile_of(rows.x, 2.0 / 3.0);
+  // A value that most rows have would be both ends.
+  const bool few = levels.size() <= kFew || !(low < high);
+  if (few) {
+    low = *levels.begin();
+    high = *levels.rbegin();
+  }
   std::vector<char> end;
   for (const double x : rows.x) end.push_back(x <= low ? 'l' : x >= high ? 'h' : '-');
-  Effect e = between(rows.y, end, seed);
+  Effect e = between(rows.y, end, how);
   e.low_label = fmt::format("{}{:.4g}", few ? "" : "up to ", low);
   e.high_label = fmt::format("{}{:.4g}", few ? "" : "from ", high);
   return e;
 }
 
 Effect effect_of_choice(const std::vector<std::string>& input, const std::vector<double>& result,
-                        std::uint64_t seed) {
+                        const Resampling& how) {
   std::map<std::string, std::vector<double>> by_value;
   for (std::size_t row = 0; row < input.size(); ++row)
     if (is_set(result[row])) by_value[input[row]].push_back(result[row]);
@@ -63,7 +67,8 @@ Effect effect_of_choice(const std::vector<std::string>& input, const std::vector
   auto least = by_value.begin(), most = by_value.begin();
   for (auto it = by_value.begin(); it != by_value.end(); ++it) {
     if (mean(it->second) < mean(least->second)) least = it;
-    if (mean(it->second) > mean(most->second)) most = it;
+    // Of equal ones the last, so that an input without effect has two ends, and the effect zero.
+    if (mean(it->second) >= mean(most->second)) most = it;
   }
   std::vector<double> values;
   std::vector<char> end;
@@ -72,14 +77,14 @@ Effect effect_of_choice(const std::vector<std::string>& input, const std::vector
     values.push_back(result[row]);
     end.push_back(input[row] == least->first ? 'l' : input[row] == most->first ? 'h' : '-');
   }
-  Effect e = between(values, end, seed);
+  Effect e = between(values, end, how);
   e.low_label = least->first;
   e.high_label = most->first;
   return e;
 }
 
 Estimate ratio_of_means(const std::vector<double>& over, const std::vector<double>& under,
-                        std::uint64_t seed) {
+                        const Resampling& how) {
   std::vector<double> values = over;
   std::vector<char> end(over.size(), 'h');
   values.insert(values.end(), under.begin(), under.end());
@@ -91,7 +96,7 @@ Estimate ratio_of_means(const std::vector<double>& over, const std::vector<doubl
       known.push_back(values[i]);
       known_end.push_back(end[i]);
     }
-  return bootstrap(known.size(), seed, [&](const std::vector<std::size_t>& rows) {
+  return bootstrap(known.size(), how, [&](const std::vector<std::size_t>& rows) {
     const double below = mean_at(known, known_end, 'l', rows);
     return below != 0.0 ? mean_at(known, known_end, 'h', rows) / below : kUnset;
   });

@@ -17,14 +17,14 @@ struct Effect {
 /// Of a number: its ends are the rows with the lowest and the highest third of its values (the
 /// lowest and highest value where it has three or fewer). Rows with NaN are left out.
 Effect effect_of_number(const std::vector<double>& input, const std::vector<double>& result,
-                        std::uint64_t seed);
+                        const Resampling& how);
 
 /// Of a choice: its ends are the values with the smallest and the largest mean result.
 Effect effect_of_choice(const std::vector<std::string>& input, const std::vector<double>& result,
-                        std::uint64_t seed);
+                        const Resampling& how);
 
 /// Mean of the first over mean of the second, with an interval that resamples both.
 Estimate ratio_of_means(const std::vector<double>& over, const std::vector<double>& under,
-                        std::uint64_t seed);
+                        const Resampling& how);
 
 }  // namespace flowslide::study

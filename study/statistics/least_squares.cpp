@@ -60,7 +60,7 @@ double share_explained(const std::vector<double>& y, const std::vector<double>& 
   return about_mean > 0.0 ? 1.0 - about_fit / about_mean : kUnset;
 }
 
-Line fit_line(const std::vector<double>& x, const std::vector<double>& y, std::uint64_t seed) {
+Line fit_line(const std::vector<double>& x, const std::vector<double>& y, const Resampling& how) {
   const Pairs pairs = without_gaps(x, y);
   Line line;
   constexpr std::size_t kFewest = 4;
@@ -78,8 +78,8 @@ Line fit_line(const std::vector<double>& x, const std::vector<double>& y, std::u
       return c.empty() ? kUnset : c[which];
     };
   };
-  line.intercept = bootstrap(pairs.x.size(), seed, coefficient(0));
-  line.slope = bootstrap(pairs.x.size(), seed, coefficient(1));
+  line.intercept = bootstrap(pairs.x.size(), how, coefficient(0));
+  line.slope = bootstrap(pairs.x.size(), how, coefficient(1));
   std::vector<double> fitted;
   for (const double v : pairs.x) fitted.push_back(line.intercept.value + line.slope.value * v);
   line.r2 = share_explained(pairs.y, fitted);

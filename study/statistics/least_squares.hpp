@@ -17,7 +17,7 @@ struct Line {
   double r2 = kUnset;  ///< share of the variance of y that the line takes away
 };
 /// Rows with NaN are left out; no line for fewer than four, or where x does not vary.
-Line fit_line(const std::vector<double>& x, const std::vector<double>& y, std::uint64_t seed);
+Line fit_line(const std::vector<double>& x, const std::vector<double>& y, const Resampling& how);
 
 /// 1 - (sum of squares about the fit) / (sum of squares about the mean).
 double share_explained(const std::vector<double>& y, const std::vector<double>& fitted);

@@ -45,11 +45,12 @@ Pairs without_gaps(const std::vector<double>& x, const std::vector<double>& y) {
   return pairs;
 }
 
-Estimate spearman(const std::vector<double>& x, const std::vector<double>& y, std::uint64_t seed) {
+Estimate spearman(const std::vector<double>& x, const std::vector<double>& y,
+                  const Resampling& how) {
   const Pairs pairs = without_gaps(x, y);
   constexpr std::size_t kFewest = 4;
   if (pairs.x.size() < kFewest) return {.rows = pairs.x.size()};
-  return bootstrap(pairs.x.size(), seed, [&](const std::vector<std::size_t>& rows) {
+  return bootstrap(pairs.x.size(), how, [&](const std::vector<std::size_t>& rows) {
     Pairs drawn;
     for (const std::size_t row : rows) {
       drawn.x.push_back(pairs.x[row]);

@@ -13,7 +13,8 @@ double correlation(const std::vector<double>& x, const std::vector<double>& y);
 
 /// Rank correlation of Spearman (1904): the correlation of the ranks. Rows with NaN are left out;
 /// no value for fewer than four.
-Estimate spearman(const std::vector<double>& x, const std::vector<double>& y, std::uint64_t seed);
+Estimate spearman(const std::vector<double>& x, const std::vector<double>& y,
+                  const Resampling& how);
 
 /// The rows in which neither is NaN, as two columns.
 struct Pairs {

@@ -30,15 +30,35 @@ double quantile_of(std::vector<double> values, double share) {
   return values[below] + (at - static_cast<double>(below)) * (values[above] - values[below]);
 }
 
-Exceedance exceedance(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const auto n = static_cast<double>(values.size());
+Exceedance exceedance(std::vector<Weighted> values) {
+  std::stable_sort(values.begin(), values.end(),
+                   [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
+  double rows = 0.0, up_to_here = 0.0;
+  for (const Weighted& v : values) rows += v.weight;
   Exceedance e;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    e.share.push_back(1.0 - static_cast<double>(i + 1) / (n + 1.0));
-  e.value = std::move(values);
-  if (n > 0.0) e.band = std::sqrt(flowslide::log(2.0 / 0.05) / (2.0 * n));
+  for (const Weighted& v : values) {
+    up_to_here += v.weight;
+    e.value.push_back(v.value);
+    e.weight.push_back(v.weight);
+    e.share.push_back(1.0 - up_to_here / (rows + 1.0));
+  }
+  if (rows > 0.0) e.band = std::sqrt(flowslide::log(2.0 / 0.05) / (2.0 * rows));
   return e;
+}
+
+double weighted_quantile(const Exceedance& e, double share) {
+  const std::size_t n = e.value.size();
+  if (n == 0) return kUnset;
+  double all = 0.0;
+  for (std::size_t i = 0; i + 1 < n; ++i) all += e.weight[i];
+  double before = 0.0;
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    const double wanted = share * all - before;
+    if (wanted < e.weight[i])
+      return e.value[i] + wanted / e.weight[i] * (e.value[i + 1] - e.value[i]);
+    before += e.weight[i];
+  }
+  return e.value.back();
 }
 
 }  // namespace flowslide::study

@@ -65,7 +65,7 @@ struct Search {
 
 }  // namespace
 
-Ramp fit_ramp(const std::vector<double>& x, const std::vector<double>& y, std::uint64_t seed) {
+Ramp fit_ramp(const std::vector<double>& x, const std::vector<double>& y, const Resampling& how) {
   Search search{.rows = without_gaps(x, y)};
   const std::size_t n = search.rows.x.size();
   Ramp ramp;
@@ -85,7 +85,7 @@ Ramp fit_ramp(const std::vector<double>& x, const std::vector<double>& y, std::u
 
   std::array<std::vector<double>, 3> values;
   double without_breach = 0.0, without_saturation = 0.0;
-  resampled(n, seed, [&](const std::vector<std::size_t>& drawn) {
+  resampled(n, how, [&](const std::vector<std::size_t>& drawn) {
     const Found f = search.best(drawn);
     values[0].push_back(search.at(f.breach));
     values[1].push_back(search.at(f.saturation));

@@ -23,6 +23,6 @@ struct Ramp {
 inline constexpr double kMostWithout = 0.05;
 
 /// Rows with NaN are left out; nothing for fewer than eight rows.
-Ramp fit_ramp(const std::vector<double>& x, const std::vector<double>& y, std::uint64_t seed);
+Ramp fit_ramp(const std::vector<double>& x, const std::vector<double>& y, const Resampling& how);
 
 }  // namespace flowslide::study

@@ -47,14 +47,16 @@ std::vector<std::string> depths(const Table& table) {
 std::vector<std::string> usual_results(const Table& table) {
   std::vector<std::string> results;
   for (const char* name : {"runout_m", "runout_mass_quantile_m", "volume_past_toe_m3_per_m"})
-    if (const Column* c = table.find(name); c && c->is_number) results.emplace_back(name);
+    if (const Column* c = table.find(name); c && c->role == Role::found && c->is_number)
+      results.emplace_back(name);
   for (std::string& name : depths(table)) results.push_back(std::move(name));
   return results;
 }
 
 class Analyst {
  public:
-  Analyst(const Plan& plan, const Table& table) : plan_(plan), table_(table) {
+  Analyst(const Plan& plan, const Table& table, const std::atomic<bool>* stop)
+      : plan_(plan), table_(table), resampling_(plan.analysis.seed, stop) {
     f_.repeats = group_rows(groups_of(plan));
     choose_variant();
     f_.results = plan.analysis.results.empty() ? usual_results(table) : plan.analysis.results;
@@ -65,8 +67,8 @@ class Analyst {
   StudyFindings run() {
     for (const std::string& result : f_.results) {
       const Column& c = *table_.find(result);
-      f_.scatter.push_back(scatter(f_.repeats, c.number));
-      f_.exceedance.push_back(exceedance(without_gaps(means(c), means(c)).x));
+      f_.scatter.push_back(scatter(f_.repeats, distinct(c)));
+      f_.exceedance.push_back(exceedance_of(c));
       relate(c);
       for (const Input& input : plan_.inputs) add_swing(input, c);
     }
@@ -98,28 +100,68 @@ class Analyst {
       if (plan_.rows[f_.repeats.groups[g][0]].variant == f_.variant) f_.groups.push_back(g);
   }
 
-  /// Mean of each group of the variant.
+  /// What each row has found, once for each group: repeats that did not disturb the stage that
+  /// found it are no repeats of it.
+  [[nodiscard]] std::vector<double> distinct(const Column& c) const {
+    std::vector<double> result = c.number;
+    if (c.node.empty()) return result;
+    for (const auto& rows : f_.repeats.groups) {
+      std::set<std::size_t> seen;
+      for (const std::size_t row : rows)
+        if (is_set(result[row]) && !seen.insert(c.node[row]).second) result[row] = kUnset;
+    }
+    return result;
+  }
+
+  /// All that the groups of the variant have observed, every repeat and what one stage has found
+  /// once, each group with the weight 1.
+  [[nodiscard]] Exceedance exceedance_of(const Column& c) const {
+    const std::vector<double> values = distinct(c);
+    std::set<std::size_t> seen;
+    std::vector<Weighted> observed;
+    for (const std::size_t g : f_.groups) {
+      std::vector<double> here;
+      for (const std::size_t row : f_.repeats.groups[g])
+        if (is_set(values[row]) && (c.node.empty() || seen.insert(c.node[row]).second))
+          here.push_back(values[row]);
+      for (const double v : here) observed.push_back({v, 1.0 / static_cast<double>(here.size())});
+    }
+    return exceedance(std::move(observed));
+  }
+
+  /// Mean of each group of the variant, over its repeats.
   [[nodiscard]] std::vector<double> means(const Column& c) const {
+    const std::vector<double> values = distinct(c);
     std::vector<double> result;
     for (const std::size_t g : f_.groups) {
       std::vector<double> here;
       for (const std::size_t row : f_.repeats.groups[g])
-        if (is_set(c.number[row])) here.push_back(c.number[row]);
+        if (is_set(values[row])) here.push_back(values[row]);
       result.push_back(mean(here));
     }
     return result;
   }
 
-  /// x and y of the groups. What one stage has found is one observation, however many rows take
-  /// it on to other stages: it counts once for each x.
+  /// The groups that are one observation of y each. What one stage has found is one observation,
+  /// however many rows take it on to other stages: it counts once for each x, which `label` tells.
+  template <class Label>
+  [[nodiscard]] std::vector<std::size_t> observations(const Column& y, Label&& label) const {
+    std::set<std::pair<decltype(label(std::size_t{})), std::size_t>> seen;
+    std::vector<std::size_t> places;
+    const std::vector<double> result = means(y);
+    for (std::size_t i = 0; i < f_.groups.size(); ++i) {
+      if (!is_set(result[i])) continue;
+      const std::size_t row = f_.repeats.groups[f_.groups[i]][0];
+      if (y.node.empty() || seen.emplace(label(i), y.node[row]).second) places.push_back(i);
+    }
+    return places;
+  }
+
   [[nodiscard]] Pairs observations(const Column& x, const Column& y) const {
     const std::vector<double> all_x = means(x), all_y = means(y);
-    std::set<std::pair<double, std::size_t>> seen;
     Pairs pairs;
-    for (std::size_t i = 0; i < f_.groups.size(); ++i) {
-      const std::size_t row = f_.repeats.groups[f_.groups[i]][0];
-      if (!is_set(all_x[i]) || !is_set(all_y[i])) continue;
-      if (!y.node.empty() && !seen.emplace(all_x[i], y.node[row]).second) continue;
+    for (const std::size_t i : observations(y, [&](std::size_t k) { return all_x[k]; })) {
+      if (!is_set(all_x[i])) continue;
       pairs.x.push_back(all_x[i]);
       pairs.y.push_back(all_y[i]);
     }
@@ -158,22 +200,28 @@ class Analyst {
     for (const Column& x : table_.columns) {
       if (!is_cause(x, y)) continue;
       const Pairs p = observations(x, y);
-      f_.relations.push_back({x.name, y.name, spearman(p.x, p.y, plan_.analysis.seed),
-                              fit_line(p.x, p.y, plan_.analysis.seed)});
+      f_.relations.push_back(
+          {x.name, y.name, spearman(p.x, p.y, resampling_), fit_line(p.x, p.y, resampling_)});
     }
   }
 
   void add_swing(const Input& input, const Column& y) {
     const Column& x = *table_.find(input.name);
     if (!feeds(x, y)) return;
-    const std::vector<double> result = means(y);
     Effect effect;
     if (input.unit) {
-      effect = effect_of_number(means(x), result, plan_.analysis.seed);
+      const Pairs p = observations(x, y);
+      effect = effect_of_number(p.x, p.y, resampling_);
     } else {
+      const std::vector<double> all = means(y);
+      const auto word = [&](std::size_t i) { return x.text[f_.repeats.groups[f_.groups[i]][0]]; };
       std::vector<std::string> words;
-      for (const std::size_t g : f_.groups) words.push_back(x.text[f_.repeats.groups[g][0]]);
-      effect = effect_of_choice(words, result, plan_.analysis.seed);
+      std::vector<double> result;
+      for (const std::size_t i : observations(y, word)) {
+        words.push_back(word(i));
+        result.push_back(all[i]);
+      }
+      effect = effect_of_choice(words, result, resampling_);
     }
     if (is_set(effect.swing.value)) f_.swings.push_back({input.name, y.name, effect});
   }
@@ -185,7 +233,7 @@ class Analyst {
     for (const auto& [x, y] : pairs) {
       if (!is_there(x, "analysis.thresholds") || !is_there(y, "analysis.thresholds")) continue;
       const Pairs p = observations(*table_.find(x), *table_.find(y));
-      f_.thresholds.push_back({x, y, fit_ramp(p.x, p.y, plan_.analysis.seed)});
+      f_.thresholds.push_back({x, y, fit_ramp(p.x, p.y, resampling_)});
     }
   }
 
@@ -197,48 +245,89 @@ class Analyst {
       for (const std::string& result : f_.results) compare_with(variant, *table_.find(result));
   }
 
-  void compare_with(const std::string& variant, const Column& c) {
-    // By the values of the inputs that both have.
-    std::map<std::string, std::array<std::vector<double>, 2>> by_values;
-    std::array<std::vector<double>, 2> all;
-    std::set<std::string> shared;
+  /// Names of the inputs that rows of a variant have.
+  [[nodiscard]] std::set<std::string> inputs_of(const std::string& variant) const {
+    std::set<std::string> names;
     for (const Row& row : plan_.rows)
       if (row.variant == variant)
-        for (const auto& [name, value] : row.values) shared.insert(name);
-    for (std::size_t g = 0; g < f_.repeats.groups.size(); ++g) {
-      const Row& row = plan_.rows[f_.repeats.groups[g][0]];
+        for (const auto& [name, value] : row.values) names.insert(name);
+    return names;
+  }
+
+  /// The values of a row for inputs that both variants have; "0.30 g" is 0.3 g.
+  [[nodiscard]] static std::string place_of(const Row& row, const std::set<std::string>& shared) {
+    std::string where;
+    for (const auto& [name, value] : row.values) {
+      if (!shared.contains(name)) continue;
+      const auto amount = parse_amount(value);
+      where += fmt::format("{}{} {}", where.empty() ? "" : ", ", name,
+                           amount ? to_text(*amount) : value);
+    }
+    return where;
+  }
+
+  void compare_with(const std::string& variant, const Column& c) {
+    std::set<std::string> shared = inputs_of(variant);
+    const std::set<std::string> own = inputs_of(f_.variant);
+    std::erase_if(shared, [&](const std::string& name) { return !own.contains(name); });
+    // Values of both sides by the inputs that they share.
+    std::map<std::string, std::array<std::vector<double>, 2>> by_values;
+    std::array<std::vector<double>, 2> all;
+    std::array<std::size_t, 2> groups{};
+    const std::vector<double> values = distinct(c);
+    for (const auto& rows : f_.repeats.groups) {
+      const Row& row = plan_.rows[rows[0]];
       if (row.variant != f_.variant && row.variant != variant) continue;
-      std::string where;
-      for (const auto& [name, value] : row.values)
-        if (shared.contains(name)) where += (where.empty() ? "" : ", ") + name + " " + value;
-      const std::size_t side = row.variant == variant;
       std::vector<double> here;
-      for (const std::size_t r : f_.repeats.groups[g])
-        if (is_set(c.number[r])) here.push_back(c.number[r]);
+      for (const std::size_t r : rows)
+        if (is_set(values[r])) here.push_back(values[r]);
       if (here.empty()) continue;
-      by_values[where][side].push_back(mean(here));
+      const std::size_t side = row.variant == variant;
+      ++groups[side];
+      by_values[place_of(row, shared)][side].push_back(mean(here));
     }
     std::erase_if(by_values, [](const auto& entry) {
       return entry.second[0].empty() || entry.second[1].empty();
     });
+    if (by_values.empty()) {
+      tell_not_compared(variant, c, groups, shared);
+      return;
+    }
     for (const auto& [where, sides] : by_values) {
       for (std::size_t s = 0; s < 2; ++s)
         all[s].insert(all[s].end(), sides[s].begin(), sides[s].end());
       f_.comparisons.push_back(
-          {variant, c.name, where, ratio_of_means(sides[0], sides[1], plan_.analysis.seed)});
+          {variant, c.name, where, ratio_of_means(sides[0], sides[1], resampling_)});
     }
     if (by_values.size() > 1)
-      f_.comparisons.push_back(
-          {variant, c.name, "", ratio_of_means(all[0], all[1], plan_.analysis.seed)});
+      f_.comparisons.push_back({variant, c.name, "", ratio_of_means(all[0], all[1], resampling_)});
+  }
+
+  void tell_not_compared(const std::string& variant, const Column& c,
+                         const std::array<std::size_t, 2>& groups,
+                         const std::set<std::string>& shared) {
+    for (std::size_t side = 0; side < 2; ++side)
+      if (groups[side] == 0) {
+        f_.not_compared.push_back(
+            {variant, c.name,
+             fmt::format("no row of {} has found a {}", side == 0 ? f_.variant : variant, c.name)});
+        return;
+      }
+    f_.not_compared.push_back({variant, c.name,
+                               fmt::format("no row of {} has the values of a row of {} in {}",
+                                           f_.variant, variant, fmt::join(shared, ", "))});
   }
 
   const Plan& plan_;
   const Table& table_;
+  Resampling resampling_;
   StudyFindings f_;
 };
 
 }  // namespace
 
-StudyFindings analyse(const Plan& plan, const Table& table) { return Analyst(plan, table).run(); }
+StudyFindings analyse(const Plan& plan, const Table& table, const std::atomic<bool>* stop) {
+  return Analyst(plan, table, stop).run();
+}
 
 }  // namespace flowslide::study

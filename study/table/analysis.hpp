@@ -7,6 +7,8 @@
 #include "study/statistics/threshold.hpp"
 #include "study/table/table.hpp"
 
+#include <atomic>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -36,6 +38,11 @@ struct Comparison {
   Estimate ratio;
 };
 
+/// A variant that has no row to be compared with, and why.
+struct NotCompared {
+  std::string variant, result, why;
+};
+
 /// What a study says, over the means of its repeats. docs/theory/study-statistics.md
 struct StudyFindings {
   std::string variant;               ///< whose rows these are, but for the comparisons
@@ -48,11 +55,15 @@ struct StudyFindings {
   std::vector<Threshold> thresholds;
   std::vector<Exceedance> exceedance;  ///< of each result
   std::vector<Comparison> comparisons;
+  std::vector<NotCompared> not_compared;
 };
 
-StudyFindings analyse(const Plan& plan, const Table& table);
+/// Throws Interrupted once `stop` is set.
+StudyFindings analyse(const Plan& plan, const Table& table,
+                      const std::atomic<bool>* stop = nullptr);
 
-/// Everything as JSON, numbers that are not known as null.
-std::string to_json_text(const Plan& plan, const StudyFindings& findings);
+/// Everything as JSON, numbers that are not known as null. `figures` are digests by file name.
+std::string to_json_text(const Plan& plan, const StudyFindings& findings,
+                         const std::map<std::string, std::string>& figures = {});
 
 }  // namespace flowslide::study

@@ -35,7 +35,8 @@ Json json_of(const Threshold& t) {
 
 }  // namespace
 
-std::string to_json_text(const Plan& plan, const StudyFindings& f) {
+std::string to_json_text(const Plan& plan, const StudyFindings& f,
+                         const std::map<std::string, std::string>& figures) {
   Json results = Json::array(), relations = Json::array(), swings = Json::array(),
        thresholds = Json::array(), comparisons = Json::array();
   for (std::size_t i = 0; i < f.results.size(); ++i)
@@ -63,6 +64,9 @@ std::string to_json_text(const Plan& plan, const StudyFindings& f) {
                            {"under", c.variant},
                            {"where", c.where},
                            {"ratio", json_of(c.ratio)}});
+  Json not_compared = Json::array();
+  for (const NotCompared& n : f.not_compared)
+    not_compared.push_back({{"result", n.result}, {"under", n.variant}, {"why", n.why}});
   return Json({{"schema", 1},
                {"study", plan.name},
                {"variant", f.variant},
@@ -71,7 +75,9 @@ std::string to_json_text(const Plan& plan, const StudyFindings& f) {
                {"relations", relations},
                {"tornado", swings},
                {"thresholds", thresholds},
-               {"comparisons", comparisons}})
+               {"comparisons", comparisons},
+               {"not_compared", not_compared},
+               {"figures", figures}})
              .dump(2, ' ', false, Json::error_handler_t::replace) +
          "\n";
 }

@@ -125,7 +125,8 @@ class Builder {
           Column& c = it->second;
           if (is_new) {
             order.push_back(name);
-            c.name = name;
+            // Names of facts are known only now: a variable may have one of them already.
+            c.name = table_.find(name) ? "found:" + name : name;
             c.unit = unit_in_name(name);
             c.text.resize(table_.rows);
             c.number.assign(table_.rows, kUnset);

@@ -106,3 +106,36 @@ TEST_CASE("on a terminal a study draws its running stages and a total", "[cli]")
   const std::string text = on_terminal(scratch, "study run s.yaml", 60);
   CHECK_THAT(text, Contains("ETA") && Contains("2 done, 0 failed"));
 }
+
+TEST_CASE("the help of studies fits narrow terminals", "[cli]") {
+  const Scratch scratch;
+  for (const char* command : {"", "run ", "status ", "table ", "report ", "clean "}) {
+    const Outcome o = call(scratch, std::string("study ") + command + "--help");
+    REQUIRE(o.code == 0);
+    std::istringstream in(o.out);
+    for (std::string line; std::getline(in, line);) {
+      CAPTURE(line);
+      CHECK(line.size() <= 60);
+    }
+  }
+}
+
+TEST_CASE("a stage whose workflow was edited says so and leaves nothing behind", "[cli]") {
+  const Scratch scratch;
+  write_study(scratch);
+  REQUIRE(call(scratch, "study run s.yaml").code == 0);
+  const auto status = nlohmann::json::parse(call(scratch, "study status runs/s --json").out);
+  const std::string set = status["rows"][0]["set"][0];
+  const nlohmann::json job = {{"store", (scratch / "runs/s").string()},
+                              {"workflow", (scratch / "w.yaml").string()},
+                              {"set", {set}},
+                              {"stage", "shake"},
+                              {"key", std::string(64, '0')},
+                              {"threads", 1},
+                              {"final_state", true},
+                              {"allow", nlohmann::json::array()}};
+  scratch.write("job.json", job.dump());
+  const Outcome o = call(scratch, "study stage \"$(cat job.json)\"");
+  CHECK(o.code == 0);
+  CHECK(o.out == "changed\n");
+}

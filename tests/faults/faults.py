@@ -11,6 +11,7 @@ every so manieth point is taken, a different one for each action: see STRIDES.
 import argparse
 import collections
 import glob
+import json
 import multiprocessing
 import os
 import random
@@ -94,7 +95,21 @@ class Worker:
         with open(f"{self.root}.said", errors="replace") as file:
             return file.read()[-2000:]
 
+    def job(self, stage):
+        """The command that makes a stage of a finished study, which goes, again."""
+        place = f"{self.root}/out/stages/{stage}"
+        with open(glob.glob(f"{place}/*.json")[0]) as file:
+            key = json.load(file)["record"]["key"]
+        with open(f"{self.root}/out/study.json") as file:
+            row = json.load(file)["rows"][0]
+        shutil.rmtree(place)
+        return ["study", "stage", json.dumps({
+            "store": f"{self.root}/out", "workflow": row["workflow"], "set": row["set"],
+            "stage": stage, "key": key, "threads": 1, "final_state": True, "allow": []})]
+
     def command(self, scene):
+        if scene.stage:
+            return self.job(scene.stage)
         words = [w.replace("ROOT", self.root) for w in scene.command]
         for i, word in enumerate(words):
             if word.startswith("FIND/"):
@@ -166,6 +181,7 @@ class Worker:
         # Before the first stage nobody has asked for the signal yet.
         stopped = {0, 4, 130, -signal.SIGTERM}
         allowed = {-signal.SIGKILL, 0} if killed else stopped if name == "stop" else {0, 4}
+        allowed |= set(scene.codes)
         if code not in allowed:
             problems.append(f"ends with {code}: {said.strip().splitlines()[-1:]}")
         if code == 0 and (wrong := tree.differences(now, whole)):

@@ -150,6 +150,21 @@ $Elements
 $EndElements
 """
 
+# Rows of gravity alone: four stages.
+STUDY = """schema: 1
+name: faults
+study:
+  workflow: zone.yaml
+  set: {stages.shake.with.opensees_recorders: false}
+  vary: {pond: {setting: stages.zone.with.pond_surface, values: [VALUES]}}
+"""
+
+# Draws what `plot` asks for without Matplotlib.
+PYTHON = """#!/bin/sh
+for last; do :; done
+echo "<svg/>" > "$last"
+"""
+
 POINT = """material:
   pm4sand: {Dr: 0.35, G0: 476, hpo: 2.70}
 stress: {vertical: 100 kPa, k0: 0.5}
@@ -168,6 +183,8 @@ class Scene:
     continued: bool = False  # starts from the checkpoint of a run that was stopped
     kills_only: bool = False  # 100 kills at random calls and 20 at and after renames
     damage: str = ""  # a file of a finished run that loses a byte, by the end of its path
+    codes: tuple = ()  # exit codes that a failed call may also end with
+    stage: str = ""  # of a finished study: the command is the job that makes it again
 
 
 CONTROL = Scene("careless", ["ROOT/made"])
@@ -202,6 +219,16 @@ def scenes():
         source = f"ROOT/{file}" if file.startswith("in/") else f"FIND/{file}"
         result.append(Scene(f"convert to {target}", ["convert", source, f"ROOT/made/{target}", "--unit", "m/s2"],
                             whole))
+    study = ["study", "run", "ROOT/in/study.yaml", "--out", "ROOT/out", "--jobs", "1", "--quiet"]
+    # What cannot be read back of a stage is a row that failed.
+    result.append(Scene("study", study, codes=(1,)))
+    result.append(Scene("study, all done", study, [study], codes=(1,)))
+    result.append(Scene("study report", ["study", "report", "ROOT/out"], [study]))
+    result.append(Scene("stage of a study", [], [study], stage="zone"))
+    result.append(Scene("study clean", ["study", "clean", "ROOT/out"],
+                        [[w.replace("study.yaml", "more.yaml") for w in study], study]))
+    result.append(Scene("plot", ["plot", "ROOT/in/shake.yaml", "--out", "ROOT/made/section.svg",
+                                 "--python", "ROOT/in/python"]))
     result.append(Scene("point", ["point", "ROOT/in/point.yaml", "--csv", "ROOT/made/point.csv"]))
     result.append(Scene("docs", ["docs", "ROOT/made/docs"]))
     return result
@@ -226,9 +253,12 @@ def write_inputs(folder, fine=False):
     with open(f"{folder}/shaking.csv", "w") as file:
         file.write("time [s],acceleration [m/s2]\n")
         file.writelines(f"{0.05 * i:.2f},{9.81 * a:.6f}\n" for i, a in enumerate(shaking))
-    for name, text in (("square.msh", GMSH), ("point.yaml", POINT)):
+    for name, text in (("square.msh", GMSH), ("point.yaml", POINT), ("python", PYTHON),
+                       ("study.yaml", STUDY.replace("VALUES", "16 m")),
+                       ("more.yaml", STUDY.replace("VALUES", "16 m, 15 m"))):
         with open(f"{folder}/{name}", "w") as file:
             file.write(text)
+    os.chmod(f"{folder}/python", 0o755)
 
 
 def write_workflow(folder, name, chain, fine=False):

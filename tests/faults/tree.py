@@ -6,7 +6,7 @@ import os
 
 # Wall times and what follows from them. Everything else has to be the same in every run.
 TIMES = {"seconds", "modified_ns", "wall_s", "wall", "cached", "why", "fem_seconds",
-         "flow_point_updates_per_s"}
+         "flow_point_updates_per_s", "peak_memory_bytes"}
 # Written anew in every run, so it may tell of an unfinished one.
 ALWAYS = {"run.lock", ".flowslide.lock"}
 

@@ -1,4 +1,5 @@
 #include "core/hash.hpp"
+#include "study/page/page.hpp"
 #include "study/plan/rows.hpp"
 #include "study/run/study_state.hpp"
 #include "tests/fuzz/input.hpp"
@@ -10,6 +11,9 @@ void study(Input input) {
   Parts parts(input);
   const auto path = file("study.yaml", parts.section());
   file("cases.csv", parts.section());
+  // They are there; what is in them is for the planner.
+  file("w.yaml", "schema: 1\n");
+  file("v.yaml", "schema: 1\n");
   accepts([&] { (void)study::expand(study::read_study(path)); });
 }
 
@@ -25,6 +29,13 @@ void study_plan(Input input) {
     for (const study::Row& row : plan.rows) {
       (void)state.cause(row);
       (void)row.label();
+    }
+    try {
+      const study::Table table = study::make_table(plan, state);
+      (void)study::to_csv(table);
+      (void)study::make_page(plan, table, study::analyse(plan, table));
+    } catch (const InputError&) {
+      // a column that is not there
     }
     // What was read can be written, and is then read as the same.
     study::write_plan(folder().path(), plan);

@@ -113,6 +113,62 @@ TEST_CASE("Repeats disturb what they say, by what they say", "[study]") {
              Contains("study.yaml:5:") && Contains("neither a motion nor a grid"));
 }
 
+TEST_CASE("A repeat that changes nothing is refused: its scatter would be zero", "[study]") {
+  const StudyBench bench;
+  // Below the digits of the number; below what the stage keeps of a number that is whole; zero.
+  const Plan fine = bench.plan(
+      "  set: {stages.sum.with.factor: 2}\n"
+      "  repeat: {count: 2, scale: {stages.sum.with.factor: 1e-13}}\n");
+  CHECK(fine.rows[1].problem.empty());
+  const Plan lost = bench.plan(
+      "  set: {stages.sum.with.factor: 2}\n"
+      "  repeat: {count: 2, scale: {stages.sum.with.factor: 1e-17}}\n");
+  CHECK(lost.rows[0].problem.empty());
+  CHECK_THAT(lost.rows[1].problem, Contains("is the same number") && Contains("study.yaml:"));
+  const Plan zero = bench.plan(
+      "  set: {stages.sum.with.factor: 0}\n"
+      "  repeat: {count: 2, scale: {stages.sum.with.factor: 1e-3}}\n");
+  CHECK_THAT(zero.rows[1].problem, Contains("is the same number"));
+  CHECK_THAT(refusal(bench, "  repeat: {count: 2, scale: {stages.sum.with.factor: 0}}\n"),
+             Contains("is no step"));
+}
+
+TEST_CASE("Variants have names of their own", "[study]") {
+  const StudyBench bench;
+  CHECK_THAT(refusal(bench, "  also: {base: {}}\n"), Contains("two variants 'base'"));
+  CHECK_THAT(refusal(bench, "  also: {\"a b\": {}}\n"),
+             Contains("cannot be the name of a variant"));
+  CHECK_THAT(refusal(bench, "  also: {\"a,b\": {}}\n"), Contains("study.yaml:5:"));
+  CHECK_THAT(refusal(bench, "  vary: {cause: {setting: stages.one.with.value, values: [1]}}\n"),
+             Contains("two columns 'cause'"));
+}
+
+TEST_CASE("Rows look once at what they share", "[study]") {
+  StudyBench bench;
+  const auto looks = std::make_shared<int>(0);
+  for (StageType& type : bench.types)
+    type.prepare = [looks, name = type.name, prepare = type.prepare](
+                       const std::optional<YamlNode>& with, const YamlNode& stage) {
+      PreparedStage prepared = prepare(with, stage);
+      prepared.preview = [looks, name](const Previews& in, Findings& found) -> std::any {
+        ++*looks;
+        found.warnings.push_back(name);
+        std::string all = name;
+        for (const auto& [port, value] : in) all += "(" + std::any_cast<std::string>(value) + ")";
+        return all;
+      };
+      return prepared;
+    };
+  const Plan plan = bench.plan(kValues);
+  CHECK(plan.rows.size() == 6);
+  // Three numbers, of which `two` is one; sums and counts.
+  CHECK(*looks == 3 + 6 + 6);
+  for (const Node& node : plan.nodes) {
+    CHECK_FALSE(node.stage.preview.has_value());
+    CHECK(node.stage.warnings == std::vector<std::string>{node.stage.type.name});
+  }
+}
+
 TEST_CASE("A repeat scales the motion and moves the grid of map and flow alike", "[study]") {
   const Scratch scratch;
   scratch.write("w.yaml",

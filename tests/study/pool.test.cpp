@@ -193,3 +193,37 @@ TEST_CASE("A study that is told to stop keeps what it has", "[study]") {
   bench.stop = nullptr;
   CHECK_THAT(bench.run(kValues), Contains("done"));
 }
+
+TEST_CASE("A workflow that is edited meanwhile is no failure: it is planned again", "[study]") {
+  StudyBench bench;
+  const Plan plan = bench.plan(kValues);
+  const auto edit = [&](const std::string& from, const std::string& to) {
+    std::string text = std::string(kWorkflow);
+    bench.scratch.write("base.yaml", text.replace(text.find(from), from.size(), to));
+  };
+  const auto failures = [&] {
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(bench.folder))
+      count += entry.path().string().ends_with(".failed.json");
+    return count;
+  };
+  // Other settings; another name; what cannot be read.
+  edit("value: 2", "value: 5");
+  (void)bench.run(plan);
+  CHECK(bench.end == PoolEnd::outdated);
+  edit("sum: {uses", "total: {uses");
+  (void)bench.run(plan);
+  CHECK(bench.end == PoolEnd::outdated);
+  edit("schema: 1", "schema: 1\nschema: 1");
+  (void)bench.run(plan);
+  CHECK(bench.end == PoolEnd::outdated);
+  CHECK(failures() == 0);
+  const std::size_t made = bench.made().size();
+  // Back, or planned again, it goes on, with what was made before.
+  edit("value: 2", "value: 2");
+  const std::string csv = bench.run(plan);
+  CHECK(bench.end == PoolEnd::done);
+  CHECK_THAT(csv, !Contains("failed") && !Contains("open"));
+  CHECK(bench.made().size() == 16);
+  CHECK(made <= 16);
+}

@@ -5,6 +5,7 @@
 #include "study/statistics/ranks.hpp"
 #include "study/statistics/repeats.hpp"
 #include "study/statistics/summary.hpp"
+#include "study/statistics/threshold.hpp"
 
 #include <cmath>
 
@@ -95,12 +96,20 @@ TEST_CASE("A line has the coefficients of the textbook", "[study]") {
 TEST_CASE("Quantiles and exceedance", "[study]") {
   CHECK(quantile_of({4.0, 1.0, 3.0, 2.0}, 0.5) == Approx(2.5));
   CHECK(quantile_of({4.0, 1.0, 3.0, 2.0}, 1.0) == 4.0);
-  const Exceedance e = exceedance({30.0, 10.0, 20.0});
+  const Exceedance e = exceedance({{30.0}, {10.0}, {20.0}});
   CHECK(e.value == std::vector<double>{10.0, 20.0, 30.0});
   CHECK(e.share[0] == Approx(0.75));
   CHECK(e.share[2] == Approx(0.25));
   // sqrt(ln 40 / 6), Massart (1990)
   CHECK(e.band == Approx(std::sqrt(std::log(40.0) / 6.0)));
+  for (const double share : {0.0, 0.05, 0.3, 0.5, 0.95, 1.0})
+    CHECK(weighted_quantile(e, share) == Approx(quantile_of({30.0, 10.0, 20.0}, share)));
+  // Two repeats of one row and another row: as many rows as weights.
+  const Exceedance repeated = exceedance({{30.0, 0.5}, {10.0, 1.0}, {20.0, 0.5}});
+  CHECK(repeated.share == std::vector<double>{1.0 - 1.0 / 3.0, 1.0 - 1.5 / 3.0, 1.0 - 2.0 / 3.0});
+  CHECK(repeated.band == Approx(std::sqrt(std::log(40.0) / 4.0)));
+  CHECK(is_set(weighted_quantile(repeated, 0.5)));
+  CHECK_FALSE(is_set(weighted_quantile(exceedance({}), 0.5)));
 }
 
 TEST_CASE("Scatter of repeats is pooled over groups", "[study]") {
@@ -145,4 +154,27 @@ TEST_CASE("A ratio of means with its interval", "[study]") {
   CHECK(r.value == Approx(2.0));
   CHECK(r.low > 1.5);
   CHECK(r.high < 2.6);
+}
+
+TEST_CASE("An input without effect has two ends and the effect zero", "[study]") {
+  const Effect none = effect_of_choice({"a", "b", "a", "b"}, {1.0, 1.0, 1.0, 1.0}, 1);
+  CHECK(none.low_label == "a");
+  CHECK(none.high_label == "b");
+  CHECK(none.swing.value == 0.0);
+  // Nearly all rows have one value: the ends are the smallest and the largest.
+  const Effect few = effect_of_number({1, 1, 1, 1, 1, 1, 1, 1, 1, 2, 3, 4},
+                                      {0, 0, 0, 0, 0, 0, 0, 0, 0, 5, 6, 7}, 1);
+  CHECK(few.swing.value == 7.0);
+}
+
+TEST_CASE("Statistics stop when they are told to", "[study]") {
+  std::atomic<bool> stop = false;
+  const std::vector<double> x{1, 2, 3, 4, 5, 6, 7, 8, 9}, y{0, 0, 0, 1, 2, 3, 4, 4, 4};
+  const Estimate as_ever = spearman(x, y, {1, &stop});
+  CHECK(as_ever.low == spearman(x, y, 1).low);
+  stop = true;
+  CHECK_THROWS_AS(spearman(x, y, {1, &stop}), Interrupted);
+  CHECK_THROWS_AS(fit_ramp(x, y, {1, &stop}), Interrupted);
+  CHECK_THROWS_AS(fit_line(x, y, {1, &stop}), Interrupted);
+  CHECK_THROWS_AS(effect_of_number(x, y, {1, &stop}), Interrupted);
 }

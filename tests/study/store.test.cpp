@@ -1,3 +1,4 @@
+#include "core/files.hpp"
 #include "study/run/clean.hpp"
 #include "study/run/locks.hpp"
 #include "study/run/tidy.hpp"
@@ -139,4 +140,58 @@ TEST_CASE("A plan is read back as it was", "[study]") {
   const Plan again = read_plan(bench.folder);
   const Store store(bench.folder);
   CHECK(StudyState(again, store).count(State::done) == plan.nodes.size());
+}
+
+TEST_CASE("A hostile plan is refused with a message", "[study]") {
+  StudyBench bench;
+  const Plan plan = bench.plan(kValues);
+  std::filesystem::create_directories(bench.folder);
+  const Json good = to_json(plan);
+  const auto refusal = [&](const std::function<void(Json&)>& change) {
+    Json json = good;
+    change(json);
+    write_file(bench.folder / kPlanFile, seal(json));
+    try {
+      (void)read_plan(bench.folder);
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  CHECK(refusal([](Json&) {}).empty());
+  CHECK_THAT(refusal([](Json& j) { j["nodes"][2]["before"][0] = UINT64_MAX; }),
+             Contains("comes before what feeds it"));
+  CHECK_THAT(refusal([](Json& j) { j["nodes"][0]["before"] = {UINT64_MAX}; }),
+             Contains("comes before what feeds it"));
+  CHECK_THAT(refusal([](Json& j) { j["nodes"][0]["before"] = {0}; }),
+             Contains("comes before what feeds it"));
+  for (const char* path : {"", "s", "stages", "stages.", "elsewhere.one"})
+    CHECK_THAT(refusal([&](Json& j) { j["inputs"][0]["settings"] = {path}; }),
+               Contains("is no path of a setting"));
+  for (const char* name : {"", "..", "../../up", "a/b"})
+    CHECK_THAT(refusal([&](Json& j) { j["nodes"][0]["stage"] = name; }),
+               Contains("is no name of a stage"));
+  CHECK_THAT(refusal([](Json& j) { j["rows"][0]["nodes"][0] = UINT64_MAX; }),
+             Contains("names a stage that is not there"));
+}
+
+TEST_CASE("What the store takes is known without walking through it for each stage", "[study]") {
+  StudyBench bench;
+  const Plan plan = bench.plan(kValues + "  disk: 1 GB\n");
+  bench.run(plan);
+  const Store store(bench.folder);
+  std::ofstream(bench.folder / "stages/one/foreign") << std::string(1000, 'x');
+  Locks locks(bench.folder);
+  const auto on_disk = [&] { return bytes_of(bench.folder / "stages"); };
+  Tidier tidier(plan, store, locks);
+  CHECK(tidier.tidy(bench.progress(plan)) == on_disk());
+  // A smaller disk: what goes is subtracted, what comes again is added.
+  Plan small = plan;
+  small.disk_bytes = 0.6 * on_disk();
+  Tidier tight(small, store, locks);
+  const double left = tight.tidy(bench.progress(plan));
+  CHECK(left <= small.disk_bytes);
+  CHECK(left == on_disk());
+  bench.run(bench.plan("  set: {stages.sum.with.factor: 3}\n  disk: 1 GB\n"));
+  CHECK(Tidier(plan, store, locks).tidy(bench.progress(plan)) == on_disk());
 }

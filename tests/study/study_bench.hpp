@@ -38,6 +38,7 @@ struct StudyBench {
   const std::atomic<bool>* stop = nullptr;
   std::function<void(const Job&)> before = [](const Job&) {};  ///< in the process of the stage
   std::vector<std::string> notices;
+  PoolEnd end = PoolEnd::done;  ///< of the last run
 
   explicit StudyBench(const std::string& workflow = std::string(kWorkflow)) {
     scratch.write("base.yaml", workflow);
@@ -71,7 +72,7 @@ struct StudyBench {
     };
     PoolEvents events;
     events.notice = [this](std::string_view text) { notices.emplace_back(text); };
-    run_pool(p, store, progress, options, events);
+    end = run_pool(p, store, progress, options, events);
     return to_csv(make_table(p, progress));
   }
 

@@ -1,5 +1,8 @@
+#include "study/page/chart.hpp"
 #include "study/table/analysis.hpp"
 #include "tests/study/study_bench.hpp"
+
+#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -108,4 +111,128 @@ TEST_CASE("A column that is not there is refused by its name", "[study]") {
   bench.run(plan);
   const Table table = make_table(plan, bench.progress(plan));
   CHECK_THROWS_WITH(analyse(plan, table), Contains("no column of numbers 'runout'"));
+}
+
+TEST_CASE("A fact that has the name of a variable is another column", "[study]") {
+  StudyBench bench;
+  const Plan plan = bench.plan("  vary: {sum: {setting: stages.one.with.value, values: [1, 2]}}\n");
+  bench.run(plan);
+  const Table table = make_table(plan, bench.progress(plan));
+  CHECK(table.find("sum")->number == std::vector<double>{1.0, 2.0});
+  REQUIRE(table.find("found:sum"));
+  CHECK(table.find("found:sum")->number == std::vector<double>{3.0, 4.0});
+  std::set<std::string> names;
+  for (const Column& c : table.columns) CHECK(names.insert(c.name).second);
+}
+
+TEST_CASE("Variants are compared by the numbers of their inputs, or it is told why not",
+          "[study]") {
+  StudyBench bench;
+  const auto findings = [&](const std::string& values) {
+    const Plan plan = bench.plan(
+        "  set: {stages.count.with.steps: 1}\n"
+        "  vary: {one: {setting: stages.one.with.value, values: [1, 2, 3]}}\n"
+        "  also:\n    half: {set: {stages.sum.with.factor: 0.5}, "
+        "vary: {one: {setting: stages.one.with.value, values: [" +
+        values + "]}}}\n  analysis: {results: [sum]}\n");
+    bench.run(plan);
+    const Table table = make_table(plan, bench.progress(plan));
+    const Page page = make_page(plan, table, analyse(plan, table));
+    CHECK((page.html.find("not compared: ") != std::string::npos) ==
+          !analyse(plan, table).not_compared.empty());
+    return analyse(plan, table);
+  };
+  const StudyFindings same = findings("1.0, 2.00");
+  CHECK(same.not_compared.empty());
+  REQUIRE(same.comparisons.size() == 3);
+  CHECK(same.comparisons[0].ratio.value == Approx(2.0));
+  const StudyFindings other = findings("5, 6");
+  CHECK(other.comparisons.empty());
+  REQUIRE(other.not_compared.size() == 1);
+  CHECK(other.not_compared[0].variant == "half");
+  CHECK_THAT(other.not_compared[0].why, Contains("no row of base has the values"));
+}
+
+TEST_CASE("Exceedance and tornado stand on what was observed, every repeat", "[study]") {
+  StudyBench bench;
+  // The factor acts behind `one` and `two`; the sum of each row is repeated, its inputs are not.
+  const Plan plan = bench.plan(
+      "  set: {stages.sum.with.factor: 1}\n"
+      "  vary:\n"
+      "    one: {setting: stages.one.with.value, values: [1, 2]}\n"
+      "    steps: {setting: stages.count.with.steps, values: [1, 2, 3]}\n"
+      "  repeat: {count: 2, scale: {stages.sum.with.factor: 1e-3}, rows: {one: [1]}}\n"
+      "  analysis: {results: [sum]}\n");
+  bench.run(plan);
+  const Table table = make_table(plan, bench.progress(plan));
+  const StudyFindings f = analyse(plan, table);
+  // Three rows take each sum on: 3 and 3.003 (repeats of one row), and 4.
+  CHECK(f.exceedance[0].value.size() == 3);
+  CHECK(f.exceedance[0].weight == std::vector<double>{0.5, 0.5, 1.0});
+  CHECK(f.exceedance[0].share[2] == Approx(1.0 / 3.0));
+  // One observation at each end of `one`: their difference, whatever the rows that pass it on.
+  const auto swing = std::find_if(f.swings.begin(), f.swings.end(),
+                                  [](const Swing& s) { return s.input == "one"; });
+  REQUIRE(swing != f.swings.end());
+  CHECK(swing->effect.swing.rows == 2);
+  CHECK(swing->effect.swing.value == Approx(4.0 - 3.0015));
+}
+
+TEST_CASE("Repeats that do not disturb what found a number are no repeats of it", "[study]") {
+  StudyBench bench;
+  const Plan plan = bench.plan(
+      "  set: {stages.sum.with.factor: 1}\n"
+      "  vary: {one: {setting: stages.one.with.value, values: [1, 2]}}\n"
+      "  repeat: {count: 2, scale: {stages.sum.with.factor: 1e-3}}\n"
+      "  analysis: {results: [sum, runout_m]}\n");
+  bench.run(plan);
+  const Table table = make_table(plan, bench.progress(plan));
+  const StudyFindings f = analyse(plan, table);
+  CHECK(f.scatter[0].repeated == 2);
+  CHECK(f.scatter[1].repeated == 0);  // `one` and `two` found it, before anything was disturbed
+  CHECK_FALSE(is_set(f.scatter[1].numerical));
+}
+
+TEST_CASE("Bars of equal length stand in the order of their names", "[study]") {
+  Effect effect{.low_label = "l", .high_label = "h", .low = 1.0, .high = 2.0, .swing = {1.0}};
+  const std::vector<Swing> one{{"b", "r", effect}, {"a", "r", effect}, {"c", "r", effect}};
+  const std::vector<Swing> two{{"c", "r", effect}, {"b", "r", effect}, {"a", "r", effect}};
+  CHECK(draw_tornado(one, kUnset, "r").alone("") == draw_tornado(two, kUnset, "r").alone(""));
+}
+
+TEST_CASE("The page removes its own figures only, and follows no link", "[study]") {
+  StudyBench bench;
+  const auto write = [&](const std::string& result) {
+    const Plan plan = bench.plan(
+        "  vary: {one: {setting: stages.one.with.value, values: [1, 2, 3]}}\n"
+        "  analysis: {results: [" +
+        result + "]}\n");
+    bench.run(plan);
+    write_page(bench.folder, plan, make_table(plan, bench.progress(plan)));
+  };
+  const auto is_there = [&](const std::string& name) {
+    return std::filesystem::exists(bench.folder / "figures" / name);
+  };
+  write("sum");
+  REQUIRE(is_there("sum-tornado.svg"));
+  std::ofstream(bench.folder / "figures/mine.svg") << "<svg/>";
+  std::ofstream(bench.folder / "figures/sum-exceedance.svg") << "<svg>improved</svg>";
+  write("runout_m");
+  CHECK(is_there("mine.svg"));
+  CHECK(is_there("sum-exceedance.svg"));
+  CHECK_FALSE(is_there("sum-tornado.svg"));
+
+  bench.scratch.write("elsewhere/thesis.svg", "<svg/>");
+  std::filesystem::remove_all(bench.folder / "figures");
+  std::filesystem::create_directory_symlink(bench.scratch / "elsewhere", bench.folder / "figures");
+  CHECK_THROWS_WITH(write("sum"), Contains("is a link"));
+  CHECK(std::distance(std::filesystem::directory_iterator(bench.scratch / "elsewhere"), {}) == 1);
+}
+
+TEST_CASE("An analysis stops when it is told to", "[study]") {
+  StudyBench bench;
+  const Plan plan = bench.plan(kStudy);
+  bench.run(plan);
+  const std::atomic<bool> stop = true;
+  CHECK_THROWS_AS(analyse(plan, make_table(plan, bench.progress(plan)), &stop), Interrupted);
 }

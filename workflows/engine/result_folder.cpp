@@ -3,12 +3,9 @@
 #include "core/check.hpp"
 #include "core/files.hpp"
 
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <fcntl.h>
 #include <optional>
-#include <sys/stat.h>
 
 namespace fs = std::filesystem;
 
@@ -33,18 +30,6 @@ fs::path result_folder(const fs::path& run_folder, const std::string& stage,
 
 fs::path work_folder(const fs::path& run_folder, const std::string& stage, const std::string& key) {
   return result_folder(run_folder, stage, key).string() + ".partial";
-}
-
-void make_folders(const fs::path& folder) {
-  std::error_code error;
-  if (folder.empty() || fs::is_directory(folder, error)) return;
-  const fs::path parent = folder.parent_path();
-  if (parent != folder) make_folders(parent);
-  // "a/" has the parent "a", which is the same folder.
-  if (::mkdir(folder.c_str(), 0777) != 0 && !(errno == EEXIST && fs::is_directory(folder, error)))
-    throw FileError(
-        fmt::format("'{}' cannot be made a folder ({})", folder.string(), std::strerror(errno)));
-  sync_path(parent.empty() ? "." : parent);
 }
 
 void make_work_folder(const fs::path& run_folder, const fs::path& work, bool keep) {

@@ -13,9 +13,6 @@ std::filesystem::path result_folder(const std::filesystem::path& run_folder,
 std::filesystem::path work_folder(const std::filesystem::path& run_folder, const std::string& stage,
                                   const std::string& key);
 
-/// Makes a folder and those above it, on the disk too. FileError with the system's reason.
-void make_folders(const std::filesystem::path& folder);
-
 /// An empty `work`, a work_folder of `run_folder`, or what is there if `keep`. FileError if a
 /// folder between the two is a link: what is written and removed must stay in the run folder.
 void make_work_folder(const std::filesystem::path& run_folder, const std::filesystem::path& work,

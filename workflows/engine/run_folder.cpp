@@ -4,7 +4,6 @@
 #include "core/files.hpp"
 #include "workflows/engine/lock.hpp"
 #include "workflows/engine/publish.hpp"
-#include "workflows/engine/result_folder.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,21 +2,11 @@
 #include "workflows/engine/cache.hpp"
 #include "workflows/engine/graph.hpp"
 #include "workflows/engine/runner.hpp"
+#include "workflows/engine/stage_inputs.hpp"
 
-#include <map>
-#include <string>
 #include <vector>
 
 namespace flowslide {
-
-/// What a stage takes from those before it.
-struct StageInputs {
-  std::map<std::string, std::string> hashes;  ///< by port
-  PortPaths paths;
-  std::vector<HashedFile> files;           ///< below these paths, as they were when last read
-  std::vector<std::string> warnings = {};  ///< of the stages before it
-  std::vector<EarlierStage> earlier = {};
-};
 
 /// A result that lies in the run folder.
 struct StageState {

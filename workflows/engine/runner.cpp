@@ -2,7 +2,6 @@
 
 #include "core/check.hpp"
 #include "core/files.hpp"
-#include "workflows/engine/earlier.hpp"
 #include "workflows/engine/result_folder.hpp"
 #include "workflows/engine/run_folder.hpp"
 #include "workflows/engine/run_stage.hpp"
@@ -31,37 +30,16 @@ const OutputRecord& output(const StageRecord& record, const std::string& port) {
                        [&](const OutputRecord& o) { return o.port == port; });
 }
 
-/// The content hashes of the connected ports, as far as `results` (by index of stage) knows them.
-std::map<std::string, std::string> input_hashes(
-    const WorkflowStage& stage, const std::vector<std::optional<StageState>>& results) {
-  std::map<std::string, std::string> hashes;
-  for (const Link& link : stage.inputs)
-    if (const auto& from = results[link.from_stage])
-      hashes[link.port] = output(from->record, link.from_port).sha256;
-  return hashes;
-}
-
 std::vector<const StageRecord*> records_of(const std::vector<std::optional<StageState>>& results) {
   std::vector<const StageRecord*> records;
   for (const auto& result : results) records.push_back(result ? &result->record : nullptr);
   return records;
 }
 
-/// Warnings and stages before this one, and what they are to its key.
-void add_earlier(StageInputs& inputs, const Workflow& workflow, const WorkflowStage& stage,
-                 const fs::path& folder, const std::vector<std::optional<StageState>>& results) {
-  const std::vector<const StageRecord*> records = records_of(results);
-  inputs.warnings = earlier_warnings(workflow, stage, records);
-  inputs.earlier = earlier_stages(workflow, stage, records, folder);
-  add_to_inputs(inputs.hashes, stage, inputs.warnings);
-  add_to_inputs(inputs.hashes, inputs.earlier);
-}
-
 StageInputs stage_inputs(const Workflow& workflow, const WorkflowStage& stage,
                          const fs::path& folder,
                          const std::vector<std::optional<StageState>>& results) {
-  StageInputs inputs{.hashes = input_hashes(stage, results), .paths = {}, .files = {}};
-  add_earlier(inputs, workflow, stage, folder, results);
+  StageInputs inputs = inputs_before(workflow, stage, records_of(results), folder);
   for (const Link& link : stage.inputs) {
     const StageState& from = *results[link.from_stage];
     const fs::path path = result_folder(folder, from.record.stage, from.record.key) /
@@ -163,8 +141,7 @@ std::vector<PlanLine> plan_workflow(const Workflow& workflow, const fs::path& fo
   for (const WorkflowStage& stage : workflow.stages) {
     std::optional<StageRecord> previous;
     if (before && before->stages.contains(stage.name)) previous = before->stages.at(stage.name);
-    StageInputs inputs{.hashes = input_hashes(stage, results), .paths = {}, .files = {}};
-    add_earlier(inputs, workflow, stage, folder, results);
+    const StageInputs inputs = inputs_before(workflow, stage, records_of(results), folder);
     plan.push_back({stage.name, decide(folder, stage, inputs.hashes, previous)});
     Decision& decision = plan.back().decision;
     decision.warnings = warnings_of(stage, decision.record ? &*decision.record : nullptr);

@@ -107,10 +107,12 @@ struct Schema<NoSettings> {
 /// other stages, and returns what later stages may compare theirs with. With `static constexpr bool
 /// reads_warnings = true`, run() gets the warnings of earlier stages, and other warnings make
 /// another result; with `static constexpr bool reads_earlier = true`, it gets the settings and
-/// results of all stages that feed it, likewise. `static std::vector<std::string> programs(const
-/// Config&)` names what the stage would start at the word of a workflow file; the engine asks for
-/// the user's. run() must give the same bytes for the same settings and inputs, whatever the number
-/// of threads. With `checkpoints`, run() looks into context.folder for its own checkpoint first.
+/// results of all stages that feed it, likewise; with `static constexpr bool dated = true`, its
+/// outputs tell the day on which they were made, and are other bytes on another day. `static
+/// std::vector<std::string> programs(const Config&)` names what the stage would start at the word
+/// of a workflow file; the engine asks for the user's. run() must give the same bytes for the same
+/// settings and inputs, whatever the number of threads. With `checkpoints`, run() looks into
+/// context.folder for its own checkpoint first.
 template <class S>
 concept Stage = requires(const RunContext& context, const typename S::Config& config,
                          const typename S::Inputs& in, const typename S::Outputs& out) {
@@ -148,6 +150,7 @@ struct StageType {
   bool checkpoints = false;
   bool reads_warnings = false;
   bool reads_earlier = false;
+  bool dated = false;
   std::vector<Port> inputs, outputs;
   /// Reads and checks the settings. `with` is absent if the user gave none; `stage` is for
   /// messages.
@@ -168,6 +171,11 @@ inline constexpr bool kReadsEarlier = false;
 template <class S>
 requires requires { S::reads_earlier; }
 inline constexpr bool kReadsEarlier<S> = S::reads_earlier;
+template <class S>
+inline constexpr bool kDated = false;
+template <class S>
+requires requires { S::dated; }
+inline constexpr bool kDated<S> = S::dated;
 
 /// A FileError of canonical_text, "path.of.setting: why", at the place where the file is named.
 FileError locate_file(const YamlNode& settings, std::string_view text);
@@ -200,6 +208,7 @@ StageType stage_type() {
                  .checkpoints = S::checkpoints,
                  .reads_warnings = detail::kReadsWarnings<S>,
                  .reads_earlier = detail::kReadsEarlier<S>,
+                 .dated = detail::kDated<S>,
                  .inputs = detail::list_ports<typename S::Inputs>(),
                  .outputs = detail::list_ports<typename S::Outputs>(),
                  .prepare = {},

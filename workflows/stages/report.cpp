@@ -55,6 +55,7 @@ struct ReportStage {
   static constexpr bool checkpoints = false;
   static constexpr bool reads_warnings = true;
   static constexpr bool reads_earlier = true;
+  static constexpr bool dated = true;
   using Config = ReportConfig;
   struct Inputs {
     Artifact<FemHistory> history;

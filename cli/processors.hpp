@@ -1,0 +1,8 @@
+#pragma once
+
+namespace flowslide::cli {
+
+/// Processors that this process may use.
+int processors();
+
+}  // namespace flowslide::cli
