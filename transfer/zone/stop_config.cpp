@@ -15,7 +15,7 @@ void check(const StopAtTransferConfig& c) {
 
 void Schema<StopAtTransferConfig>::describe(FieldVisitor& v, StopAtTransferConfig& c) {
   Schema<TransferRuleConfig>::describe(v, c);
-  for (const char* key : {"zone", "line", "polygon", "strength", "columns"}) v.passed_over(key);
+  for (const char* key : {"zone", "line", "polygon", "strength"}) v.passed_over(key);
   v.quantity("after", c.after, Dim::time, {.min = 0.0}, "time recorded beyond that");
 }
 
