@@ -148,20 +148,11 @@ struct DruckerPrager {
                     (p - y.tension) / unconfined);
   }
 
-  /// The law's own return at zero strain increment, as for Mohr-Coulomb.
   static AdmissibleStress admissible(const Constants& c, const State& s, const Stress<2>& total,
                                      LiquefiedReturn) {
     const Surface<double> y = surface(c, s);
-    Stress<2> effective = total;
-    for (int i = 0; i < 3; ++i) effective[i] += s.pore_pressure;
-    AdmissibleStress r{total, violation(y, effective)};
-    State dry = s;
-    dry.pore_pressure = 0.0;
-    const Stress<2> returned = update<2>(c, dry, effective, StrainIncrement<2>{}).stress;
-    r.after = violation(y, returned);
-    r.stress = returned;
-    for (int i = 0; i < 3; ++i) r.stress[i] -= s.pore_pressure;
-    return r;
+    return own_return<DruckerPrager>(
+        c, s, total, [&y](const Stress<2>& effective) { return violation(y, effective); });
   }
 };
 static_assert(ConstitutiveModel<DruckerPrager, 2> && ConstitutiveModel<DruckerPrager, 3>);

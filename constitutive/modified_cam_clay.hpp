@@ -128,15 +128,13 @@ struct ModifiedCamClay {
   static AdmissibleStress admissible(const Constants& c, const State& s, const Stress<2>& total,
                                      LiquefiedReturn) {
     if (!is_set(s.preconsolidation)) return any_stress(total);
-    const double p_c = std::max(s.preconsolidation, 2.0 * c.minimum), mean = mean_stress(total);
-    const double p_given = -(mean + s.pore_pressure), q = std::sqrt(3.0 * j2(total));
+    const double p_c = std::max(s.preconsolidation, 2.0 * c.minimum);
+    const double p_given = -(mean_stress(total) + s.pore_pressure), q = std::sqrt(3.0 * j2(total));
     const double p = std::clamp(p_given, c.minimum, p_c);
     const double most = std::sqrt(c.m2 * p * (p_c - p));
     const double scale = q > most ? most / q : 1.0;
-    AdmissibleStress r{total, violation(c, p_given, q, p_c), violation(c, p, scale * q, p_c)};
-    for (int i = 0; i < 3; ++i) r.stress[i] = (total[i] - mean) * scale - p - s.pore_pressure;
-    r.stress[3] = total[3] * scale;
-    return r;
+    return {scaled_deviator(total, scale, p, s.pore_pressure), violation(c, p_given, q, p_c),
+            violation(c, p, scale * q, p_c)};
   }
 
  private:

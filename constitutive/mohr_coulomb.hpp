@@ -152,22 +152,11 @@ struct MohrCoulomb {
                     (s.hi - surface.tension) / unconfined);
   }
 
-  /// The law's own return at zero strain increment, in effective stress: u is kept, while a step
-  /// would let it fall where soil opens.
   static AdmissibleStress admissible(const Constants& c, const State& s, const Stress<2>& total,
                                      LiquefiedReturn) {
     const MohrCoulombSurface<double> y = surface(c, s);
-    Stress<2> effective = total;
-    for (int i = 0; i < 3; ++i) effective[i] += s.pore_pressure;
-    AdmissibleStress r{total, violation(y, effective)};
-    State dry = s;
-    dry.pore_pressure = 0.0;
-    r.stress = update<2>(c, dry, effective, StrainIncrement<2>{}).stress;
-    for (int i = 0; i < 3; ++i) r.stress[i] -= s.pore_pressure;
-    Stress<2> returned = r.stress;
-    for (int i = 0; i < 3; ++i) returned[i] += s.pore_pressure;
-    r.after = violation(y, returned);
-    return r;
+    return own_return<MohrCoulomb>(
+        c, s, total, [&y](const Stress<2>& effective) { return violation(y, effective); });
   }
 
  private:

@@ -94,15 +94,8 @@ struct MuI {
   /// the stress says how fast it flows.
   static AdmissibleStress admissible(const Constants& c, const State& s, const Stress<2>& total,
                                      LiquefiedReturn) {
-    const double mean = mean_stress(total), tau = std::sqrt(j2(total));
-    const double p_given = -(mean + s.pore_pressure), p = std::max(0.0, p_given);
-    const double most = c.mu_limit * p, strength = std::max(most, 1.0);
-    const double scale = tau > most ? most / tau : 1.0;
-    AdmissibleStress r{total, std::max(tau - most, p - p_given) / strength,
-                       (scale * tau - most) / strength};
-    for (int i = 0; i < 3; ++i) r.stress[i] = (total[i] - mean) * scale - p - s.pore_pressure;
-    r.stress[3] = total[3] * scale;
-    return r;
+    const double p = std::max(0.0, -(mean_stress(total) + s.pore_pressure));
+    return limited_shear(total, s.pore_pressure, std::sqrt(j2(total)), c.mu_limit * p, p);
   }
 };
 static_assert(ConstitutiveModel<MuI, 2> && ConstitutiveModel<MuI, 3>);

@@ -94,15 +94,9 @@ struct NorSand {
   static AdmissibleStress admissible(const Constants& c, const State& s, const Stress<2>& total,
                                      LiquefiedReturn) {
     if (!is_set(s.void_ratio) || !is_set(s.image_pressure)) return any_stress(total);
-    const double mean = mean_stress(total), q = std::sqrt(3.0 * j2(total));
-    const double p_given = -(mean + s.pore_pressure);
-    const double p = std::max(c.p.minimum_pressure, p_given), most = most_shear(c, s, p);
-    const double strength = std::max(most, 1.0), scale = q > most ? most / q : 1.0;
-    AdmissibleStress r{total, std::max(q - most, p - p_given) / strength,
-                       (scale * q - most) / strength};
-    for (int i = 0; i < 3; ++i) r.stress[i] = (total[i] - mean) * scale - p - s.pore_pressure;
-    r.stress[3] = total[3] * scale;
-    return r;
+    const double p = std::max(c.p.minimum_pressure, -(mean_stress(total) + s.pore_pressure));
+    return limited_shear(total, s.pore_pressure, std::sqrt(3.0 * j2(total)), most_shear(c, s, p),
+                         p);
   }
 
  private:

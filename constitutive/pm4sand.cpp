@@ -17,6 +17,18 @@ double default_Ckaf(double Dr) {
   return std::clamp(5.0 + 220.0 * (Dr - 0.26) * (Dr - 0.26) * (Dr - 0.26), 4.0, 35.0);
 }
 
+/// C_dr lessens the dilatancy of the rotated surface; in very loose sand its formula would raise or
+/// even turn it.
+double default_Cdr(double Dr) {
+  const double Cdr = 5.0 + 25.0 * (Dr - 0.35);
+  validate(
+      Cdr >= 1.0,
+      "pm4sand: Dr = {} is too loose for the default of Cdr (5 + 25 (Dr - 0.35) is {:.3g}, and "
+      "a divisor below 1 raises what it is to lessen) give Cdr, or a Dr of 0.19 or more",
+      Dr, Cdr);
+  return Cdr;
+}
+
 }  // namespace
 
 PM4Sand::Constants PM4Sand::constants(const Params& p) {
@@ -27,6 +39,9 @@ PM4Sand::Constants PM4Sand::constants(const Params& p) {
            "pm4sand: Q = {} puts the critical state below one atmosphere at any density (the state "
            "index is then undefined) use a Q of about 10",
            p.Q);
+  validate(p.nb > 0.0 || p.Ado,
+           "pm4sand: nb = 0 puts the bounding surface on the critical state (the dilatancy that "
+           "Ado is found from is then none) give Ado, or an nb of about 0.5");
   Constants c;
   c.G_unit = p.G0 * std::sqrt(p.P_atm);
   c.bulk_ratio = 2.0 / 3.0 * (1.0 + p.nu) / (1.0 - 2.0 * p.nu);
@@ -43,7 +58,7 @@ PM4Sand::Constants PM4Sand::constants(const Params& p) {
   c.Ckaf = std::clamp(p.Ckaf.value_or(default_Ckaf(p.Dr)), 4.0, 35.0);
   c.inverse_hpo = 1.0 / p.hpo;
   c.ce2 = pow(p.ce.value_or(default_ce(p.Dr)), 2);
-  c.inverse_Cdr = 1.0 / std::min(p.Cdr.value_or(5.0 + 25.0 * (p.Dr - 0.35)), 10.0);
+  c.inverse_Cdr = 1.0 / std::min(p.Cdr ? *p.Cdr : default_Cdr(p.Dr), 10.0);
   c.cz = p.cz;
   c.emax = p.emax;
   c.density_rate = 1.0 / (p.emax - p.emin);
@@ -147,7 +162,7 @@ void Schema<PM4Sand::Params>::describe(FieldVisitor& v, PM4Sand::Params& p) {
   v.quantity("Cgd", p.Cgd, Dim::none, {.min = 1.0}, "largest degradation of G by fabric");
   v.quantity("Cdr", p.Cdr, Dim::none, positive,
              "factor on the dilatancy of the rotated surface; left out: 5 + 25 (Dr - 0.35), at "
-             "most 10");
+             "most 10; needed below Dr = 0.19");
   v.quantity("Ckaf", p.Ckaf, Dim::none, positive,
              "factor on the plastic modulus under a static shear stress; left out: "
              "5 + 220 (Dr - 0.26)^3; kept within 4..35");

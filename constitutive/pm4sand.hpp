@@ -5,7 +5,6 @@
 #include "core/conventions.hpp"
 
 #include <array>
-#include <functional>
 #include <optional>
 #include <string_view>
 
@@ -173,7 +172,8 @@ struct PM4Sand {
   };
   /// `update` of every point that `next` names, until it returns false: the same bits, in any
   /// order, many points at a time. A point that is done makes room for the next one.
-  static Work update_all(const std::function<bool(Task&)>& next) noexcept;
+  template <class Next>
+  static Work update_all(Next&& next) noexcept;  // in pm4sand_lanes.hpp
 };
 static_assert(std::is_trivially_copyable_v<PM4Sand::State> &&
               sizeof(PM4Sand::State) == sizeof(double) * PM4Sand::state_names.size());

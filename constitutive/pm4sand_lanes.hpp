@@ -173,3 +173,8 @@ PM4Sand::Work integrate(Next&& next) {
 }
 
 }  // namespace flowslide::pm4sand
+
+template <class Next>
+flowslide::PM4Sand::Work flowslide::PM4Sand::update_all(Next&& next) noexcept {
+  return pm4sand::integrate<Pack>(next);
+}

@@ -15,8 +15,4 @@ PM4Sand::Update PM4Sand::update(const Constants& c, const State& old, const Stre
   return r;
 }
 
-PM4Sand::Work PM4Sand::update_all(const std::function<bool(Task&)>& next) noexcept {
-  return pm4sand::integrate<Pack>(next);
-}
-
 }  // namespace flowslide

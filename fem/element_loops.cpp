@@ -1,8 +1,9 @@
 #include "fem/element_loops.hpp"
 
+#include "constitutive/pm4sand_lanes.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 namespace flowslide::fem {
 
@@ -58,7 +59,7 @@ Counters update_law(Solver& s, std::atomic<std::int32_t>& taken, std::size_t las
     ++e;
     return true;
   };
-  const auto work = M::update_all(std::cref(next));  // a copy would be allocated
+  const auto work = M::update_all(next);
   return {work.sub_steps, work.rejected, work.floored};
 }
 

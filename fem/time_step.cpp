@@ -22,23 +22,23 @@ Eigen::Matrix3d compliance(const Solver& s, std::size_t e) {
   return r;
 }
 
-/// The largest eigenvalue of a matrix whose eigenvalues are real and not negative. Newton's method
-/// on the characteristic polynomial falls monotonically from the trace, by a third of the way where
-/// all roots coincide, so that the result errs to the safe side only, by 1e-7 at double roots.
-double largest(const Eigen::Matrix3d& m) {
-  const auto minor = [&m](int i, int j) { return m(i, i) * m(j, j) - m(i, j) * m(j, i); };
-  const double t = m.trace(), q = minor(0, 1) + minor(0, 2) + minor(1, 2), d = m.determinant();
-  double x = t;
-  for (int i = 0; i < 80; ++i) {
-    const double slope = (3.0 * x - 2.0 * t) * x + q;
-    const double way = (((x - t) * x + q) * x - d) / slope;
-    if (!(way > 1e-12 * x)) break;
-    x -= way;
-  }
-  return x;
-}
-
 }  // namespace
+
+double largest_eigenvalue(const Eigen::Matrix3d& matrix) {
+  const double t = matrix.trace();
+  // Without its mean, the polynomial has no terms that cancel where the roots nearly coincide.
+  const Eigen::Matrix3d m = matrix - t / 3.0 * Eigen::Matrix3d::Identity();
+  const auto minor = [&m](int i, int j) { return m(i, i) * m(j, j) - m(i, j) * m(j, i); };
+  const double q = minor(0, 1) + minor(0, 2) + minor(1, 2), d = m.determinant();
+  double x = 2.0 / 3.0 * t;
+  for (int i = 0; i < 80; ++i) {
+    const double way = ((x * x + q) * x - d) / (3.0 * x * x + q);
+    if (!(way > 0.0)) break;
+    x -= way;
+    if (way <= 1e-6 * (t / 3.0 + x)) break;
+  }
+  return t / 3.0 + x;
+}
 
 double soil_frequency(const Solver& s) {
   const Elements& g = s.layout.elements;
@@ -58,7 +58,7 @@ double soil_frequency(const Solver& s) {
     const double spread = hypot(g.hss[e] - g.htt[e], 2.0 * g.hst[e]);
     const double hourglass = 0.5 * (g.hss[e] + g.htt[e] + spread) * s.hourglass_shear[e] * gg;
     // On parallelograms the two kinds of motion are orthogonal; elsewhere nearly so.
-    worst = std::max(worst, std::max(largest(C * W), hourglass));
+    worst = std::max(worst, std::max(largest_eigenvalue(C * W), hourglass));
   }
   return worst;
 }

@@ -9,6 +9,12 @@ struct Frequencies {
   double water = 0.0;  ///< that undrained pore pressure adds
 };
 
+/// The largest eigenvalue of a matrix whose eigenvalues are real and not negative. Newton's method
+/// on the characteristic polynomial falls monotonically from the trace, by a third of the way where
+/// all roots coincide, and stops when its way is a millionth: the result errs to the safe side
+/// only, by 2e-6 at triple roots.
+double largest_eigenvalue(const Eigen::Matrix3d& matrix);
+
 /// Bound of the skeleton by its elements: the largest frequency of the mesh is not above the
 /// largest of a single free element (Irons).
 double soil_frequency(const Solver& s);

@@ -1,5 +1,7 @@
 #include "importers/mesh_faults.hpp"
 
+#include "core/median.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -24,9 +26,7 @@ double coincidence(const QuadMesh& mesh) {
     areas.push_back(std::abs(area(corners(mesh, mesh.nodes, e))));
   if (areas.empty()) return 0.0;
   // The median: a misplaced node makes some elements as large as one likes.
-  const auto middle = areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 2);
-  std::nth_element(areas.begin(), middle, areas.end());
-  return 1e-5 * std::sqrt(*middle);
+  return 1e-5 * std::sqrt(median(std::move(areas)));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "core/check.hpp"
 #include "core/elementary.hpp"
+#include "core/median.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,13 +15,6 @@ constexpr double kHeaviest = 30e3;    // [N/m3] above every soil
 constexpr double kNoPressure = 0.01;  // of the largest vertical stress
 constexpr double kJump = 0.3;         // allowed change from gravity to the first row
 constexpr std::size_t kSamples = 200;
-
-double median(std::vector<double> values) {
-  if (values.empty()) return kUnset;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Highest point of the mesh above x.
 double surface_height(const QuadMesh& mesh, double x) {

@@ -6,7 +6,10 @@
 namespace flowslide {
 namespace {
 
-/// Equal places in an order of their own, so that sums do not hang on the order of the points.
+/// A total order but for points that are equal in place and mass, which may change places without
+/// any number moving: the sums from the front do not hang on the order in which the points come,
+/// nor on how a library sorts. (Places that are not numbers have no order; they are refused
+/// before.)
 bool farther(const Place& a, const Place& b) {
   return a.at != b.at ? a.at > b.at : a.mass > b.mass;
 }

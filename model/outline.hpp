@@ -17,4 +17,17 @@ bool inside_outline(const Outline& outline, Vec2 p) {
   return inside;
 }
 
+/// Whether the point lies on a side of the closed outline, to the last bit of their products.
+template <class Outline>
+bool on_outline(const Outline& outline, Vec2 p) {
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const auto& a = outline[i];
+    const auto& b = outline[(i + 1) % outline.size()];
+    const double cross = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+    const double along = (p[0] - a[0]) * (p[0] - b[0]) + (p[1] - a[1]) * (p[1] - b[1]);
+    if (cross == 0.0 && along <= 0.0) return true;
+  }
+  return false;
+}
+
 }  // namespace flowslide

@@ -1,6 +1,7 @@
 #include "motion/columns.hpp"
 
 #include "core/check.hpp"
+#include "core/median.hpp"
 #include "core/units.hpp"
 
 #include <algorithm>
@@ -72,9 +73,7 @@ double uniform_step(const std::string& name, const std::vector<TimedValue>& time
         uniform && steps.back() > 0.0 && std::abs(times[i].time - expected) <= kTimeTolerance * dt;
   }
   if (uniform) return dt;
-  std::vector<double> sorted = steps;
-  std::sort(sorted.begin(), sorted.end());
-  const double usual = sorted[sorted.size() / 2];
+  const double usual = median(steps);
   const auto odd = std::max_element(steps.begin(), steps.end(), [usual](double a, double b) {
     return std::abs(a - usual) < std::abs(b - usual);
   });

@@ -9,10 +9,6 @@
 namespace flowslide {
 namespace {
 
-struct Weighted {
-  double x, weight;
-};
-
 Movement movement(const std::string& name, const ParticleSet& p, const FinalState& end,
                   const std::vector<std::size_t>& points, double moved) {
   Movement m;
@@ -34,17 +30,12 @@ Movement movement(const std::string& name, const ParticleSet& p, const FinalStat
   return m;
 }
 
-double y_quantile(std::vector<Weighted> points, double share) {
-  std::sort(points.begin(), points.end(),
-            [](const Weighted& a, const Weighted& b) { return a.x < b.x; });
-  double total = 0.0;
-  for (const Weighted& w : points) total += w.weight;
-  double below = 0.0;
-  for (const Weighted& w : points) {
-    below += w.weight;
-    if (below > share * total) return w.x;
-  }
-  return kUnset;
+/// Level below which at most `share` of the mass lies; unset without any. Reorders `points`.
+double level_below(std::vector<Place>& points, double share) {
+  for (Place& p : points) p.at = -p.at;
+  double level = kUnset;
+  places_beyond(points, {&share, 1}, {&level, 1});
+  return -level;
 }
 
 void add_fronts(ReportFacts& f, const ParticleSet& p, const FinalState& end,
@@ -63,7 +54,7 @@ void add_fronts(ReportFacts& f, const ParticleSet& p, const FinalState& end,
 void add_volumes(ReportFacts& f, const ParticleSet& p, const MpmFrame& last, const FinalState& end,
                  const ReportConfig& config) {
   double counted = 0.0;
-  std::vector<Weighted> failed_levels;
+  std::vector<Place> failed_levels;
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (!end.counts[i]) continue;
     counted += p.volume[i];
@@ -75,7 +66,7 @@ void add_volumes(ReportFacts& f, const ParticleSet& p, const MpmFrame& last, con
     if (!(f.deepest_failed <= y)) f.deepest_failed = y;
   }
   if (counted > 0.0) f.failed_percent = 100.0 * f.failed_volume / counted;
-  f.deepest_failed_mass = y_quantile(std::move(failed_levels), config.mass_quantile);
+  f.deepest_failed_mass = level_below(failed_levels, config.mass_quantile);
 }
 
 void add_movements(ReportFacts& f, const ParticleSet& p, const FinalState& end,

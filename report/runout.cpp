@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <utility>
 #include <vector>
 
 namespace flowslide {
@@ -28,15 +26,14 @@ void check_arrays(std::span<const std::array<double, 3>> positions,
 double front_position(std::span<const std::array<double, 3>> positions,
                       std::span<const std::uint8_t> counts) {
   check_arrays(positions, counts);
-  std::vector<double> x;
+  std::vector<Place> points;
   for (std::size_t i = 0; i < positions.size(); ++i)
-    if (counts[i]) x.push_back(positions[i][0]);
-  validate(x.size() >= kFrontRank,
+    if (counts[i]) points.push_back({positions[i][0], 1.0});
+  validate(points.size() >= kFrontRank,
            "{} material points count for the runout (the front is the fifth-farthest one) refine "
            "the points, or set counts_for_runout on the materials that flow",
-           x.size());
-  std::nth_element(x.begin(), x.begin() + (kFrontRank - 1), x.end(), std::greater<>());
-  return x[kFrontRank - 1];
+           points.size());
+  return fronts(points).fifth;
 }
 
 double runout(std::span<const std::array<double, 3>> positions,
@@ -54,22 +51,16 @@ double front_quantile(std::span<const std::array<double, 3>> positions,
            mass.size(), counts.size());
   validate(share >= 0.0 && share < 1.0,
            "mass share {} (the quantile is defined from 0 to 1) give a value such as 0.005", share);
-  std::vector<std::pair<double, double>> points;
-  double total = 0.0;
+  std::vector<Place> points;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     if (!counts[i]) continue;
     validate(mass[i] > 0.0, "mass of point {} is {} kg (it must be positive)", i, mass[i]);
-    points.emplace_back(positions[i][0], mass[i]);
-    total += mass[i];
+    points.push_back({positions[i][0], mass[i]});
   }
   validate(!points.empty(), "no material point counts (there is no front) check the materials");
-  std::sort(points.begin(), points.end(), std::greater<>());
-  double beyond = 0.0;
-  for (const auto& [x, m] : points) {
-    beyond += m;
-    if (beyond > share * total) return x;
-  }
-  return points.back().first;
+  double front = 0.0;
+  places_beyond(points, {&share, 1}, {&front, 1});
+  return front;
 }
 
 }  // namespace flowslide

@@ -2,6 +2,7 @@
 
 #include "core/conventions.hpp"
 #include "core/elementary.hpp"
+#include "core/median.hpp"
 #include "section/outline.hpp"
 
 #include <algorithm>
@@ -59,9 +60,7 @@ MeshQuality measure_quality(const QuadMesh& mesh) {
     take(quality.thickness, s.thickness, e, true);
     thickness.push_back(s.thickness);
   }
-  const auto half = thickness.begin() + std::ssize(thickness) / 2;
-  std::nth_element(thickness.begin(), half, thickness.end());
-  if (half != thickness.end()) quality.median_thickness = *half;
+  if (!thickness.empty()) quality.median_thickness = median(std::move(thickness));
   return quality;
 }
 

@@ -1,6 +1,5 @@
-#include "constitutive/pm4sand.hpp"
-
 #include "bench/fem/speed.hpp"
+#include "constitutive/pm4sand_lanes.hpp"
 #include "core/elementary.hpp"
 
 #include <algorithm>

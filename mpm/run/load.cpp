@@ -1,6 +1,7 @@
 #include "mpm/run/load.hpp"
 
 #include "core/elementary.hpp"
+#include "model/brought_state.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -41,8 +42,8 @@ SolverMaterial solver_material(const MaterialSpec& spec, const FlowConfig& confi
 
 /// Start values of a material's state variables and, by name, those the particles bring.
 struct StateSource {
-  std::vector<double> defaults;
-  std::vector<const std::vector<double>*> arrays;  ///< null: default
+  std::vector<double> of_material;
+  std::vector<BroughtState> brought;
   std::vector<std::string_view> names;
 };
 
@@ -57,12 +58,8 @@ StateSource state_source(const MaterialSpec& spec, const ParticleSet& particles)
           initial = std::bit_cast<std::array<double, n>>(M::initial_state(m.params));
         for (std::size_t i = 0; i < n; ++i) {
           s.names.push_back(M::state_names[i]);
-          s.defaults.push_back(initial[i]);
-          const auto found = particles.history.find(std::string(M::state_names[i]));
-          const bool pore = M::state_names[i] == "pore_pressure";
-          s.arrays.push_back(found != particles.history.end() ? &found->second
-                             : pore                           ? &particles.pore_pressure
-                                                              : nullptr);
+          s.of_material.push_back(initial[i]);
+          s.brought.emplace_back(particles, M::state_names[i]);
         }
         return s;
       },
@@ -169,7 +166,7 @@ void load_states(const ParticleSet& particles, Points<Dim>& p) {
   for (std::size_t i = 0; i < p.size(); ++i) {
     const StateSource& source = sources[p.material[i]];
     for (std::size_t k = 0; k < source.names.size(); ++k) {
-      const double value = source.arrays[k] ? (*source.arrays[k])[i] : source.defaults[k];
+      const double value = source.brought[k].at(i, source.of_material[k]);
       p.state[k][i] = value;
       validate(std::isfinite(value),
                "particle {} of material '{}' has no '{}' (its law needs it) give it in the "

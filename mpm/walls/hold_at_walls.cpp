@@ -72,6 +72,15 @@ void settle_dashpots(const Grid<Dim>& grid, Contact<Dim>& c, double dt, double f
   });
 }
 
+/// Damping of a node that the walls have given the velocity `held`. It slows at most to rest: the
+/// impulse that stops soil is no force of which a share could push it back.
+double damping_at_wall(const MomentumSettings& s, double m, double before, double held) noexcept {
+  const double drag = damping_force(s.cundall, m * (held - before) / s.dt, before);
+  const double after = held + s.dt * drag / m;
+  const double slowed = std::clamp(after, std::min(0.0, held), std::max(0.0, held));
+  return slowed == after ? drag : (slowed - held) * m / s.dt;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -92,7 +101,7 @@ GridWork<Dim> hold_at_walls(Grid<Dim>& grid, Contact<Dim>& c, const MomentumSett
       const double free = q[L::momentum + d], before = free - q[L::force + d];
       const double held = c.velocity[k][d], weight = m * s.gravity[d];
       const double load = load_on<Dim>(q, d);
-      const double drag = damping_force(s.cundall, m * (held - before) / s.dt, before);
+      const double drag = damping_at_wall(s, m, before, held);
       const double after = held + s.dt * drag / m, change = after - free;
       work.internal_end += (m * q[L::force + d] - s.dt * (weight + load)) * change;
       work.gravity += 0.5 * s.dt * weight * change;

@@ -122,6 +122,30 @@ TEST_CASE("PM4Sand refuses a soil that cannot be", "[pm4sand]") {
   CHECK_THROWS_AS(PM4Sand::constants(p), InputError);
 }
 
+TEST_CASE("PM4Sand refuses a default that its formula does not give", "[pm4sand]") {
+  auto p = pm4sand_default(0.10, 300.0, 0.5);
+  CHECK_THROWS_WITH(PM4Sand::constants(p), Catch::Contains("give Cdr"));
+  CHECK_THROWS_WITH(PM4Sand::mesh_constants(p), Catch::Contains("give Cdr"));
+  p.Cdr = 5.0;
+  CHECK(PM4Sand::constants(p).inverse_Cdr == Approx(0.2));
+  CHECK(PM4Sand::constants(pm4sand_default(0.20, 300.0, 0.5)).inverse_Cdr == Approx(0.8));
+
+  p = pm4sand_default(0.55, 677.0, 0.40);
+  p.nb = p.nd = 0.0;
+  CHECK_THROWS_WITH(PM4Sand::constants(p), Catch::Contains("give Ado"));
+  p.Ado = 1.0;
+  Stress<2> stress = at_rest(100e3);
+  const auto c = PM4Sand::constants(p);
+  auto state = PM4Sand::initial_state(c, stress);
+  for (int i = 0; i < 100; ++i) {
+    const auto r = PM4Sand::update(c, state, stress, {{0.0, 0.0, 0.0, 1e-4}});
+    stress = r.stress;
+    state = r.state;
+  }
+  CHECK(std::isfinite(stress[3]));
+  CHECK(std::abs(stress[3]) <= -0.5 * (stress[0] + stress[1]) * std::sin(p.phi_cv) * 1.001);
+}
+
 TEST_CASE("PM4Sand leaves a point alone that is not strained", "[pm4sand]") {
   Trial t;
   t.advance(3e-3);

@@ -1,5 +1,7 @@
+#include "fem/time_step.hpp"
 #include "verify/fem/scene.hpp"
 
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <omp.h>
 
@@ -91,4 +93,24 @@ TEST_CASE("The bound of the step is close to the stability limit", "[fem]") {
   };
   CHECK_FALSE(grows(1.0));
   CHECK(grows(1.5));
+}
+
+TEST_CASE("The bound of the step never lies below the largest root", "[fem]") {
+  // Three equal roots are those of a square element without Poisson's ratio.
+  const std::vector<Eigen::Vector3d> roots{
+      {1.0, 1.0, 1.0},          {1.0, 1.0, 0.3},  {1.0, 1.0 - 1e-7, 1.0 - 2e-7},
+      {1.0, 1.0 - 1e-9, 0.999}, {1.0, 1e-3, 0.0}, {1.0, 0.7, 0.4}};
+  for (const Eigen::Vector3d& r : roots) {
+    for (int turn = 0; turn < 50; ++turn) {
+      const Eigen::Quaterniond way(1.0, 0.3 * turn, 0.7, 1.0 - 0.1 * turn);
+      const Eigen::Matrix3d axes = way.normalized().toRotationMatrix();
+      const double scale = 4e7 * (1.0 + 0.37 * turn);
+      const double found =
+          largest_eigenvalue(scale * (axes * r.asDiagonal() * axes.transpose())) / scale;
+      CAPTURE(r, turn);
+      CHECK(found >= 1.0 - 1e-14);  // rounding of the matrix
+      CHECK(found <= 1.0 + 3e-6);
+    }
+  }
+  CHECK(largest_eigenvalue(Eigen::Matrix3d::Zero()) == 0.0);
 }

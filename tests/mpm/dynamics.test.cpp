@@ -156,3 +156,44 @@ TEST_CASE("Artificial damping takes energy out", "[mpm]") {
   };
   CHECK(kinetic_and_stored(0.3) < 0.3 * kinetic_and_stored(0.0));
 }
+
+TEST_CASE("Damping does not push back what a wall stops", "[mpm]") {
+  ParticleSet p;
+  p.materials = {elastic(1e6, 0.3)};
+  add_lattice(p, {0.0, 0.0, 4.0, 2.0}, 0.25, 1000.0);
+  FlowConfig config = free_space(0.5);
+  config.ground.surface = {{-5.0, -0.5}, {9.0, 0.2}};
+  config.ground.friction = 0.3;
+  using L = NodeLayout<2>;
+  const double dt = 1e-3;
+  const auto hold = [&](double damping, GridWork<2>& work) {
+    Run run(p, config);
+    for (Node& node : run.s.grid.nodes) {
+      node.q = {};
+      node.q[L::mass] = 250.0;
+      node.q[L::momentum] = 3.0;
+      node.q[L::momentum + 1] = -2.0;
+    }
+    work = hold_at_walls(run.s.grid, run.s.contact, {dt, {0.0, 0.0, 0.0}, damping}, 250.0);
+    std::vector<double> after;
+    for (const std::int32_t n : run.s.contact.nodes)
+      for (int d = 0; d < 2; ++d) after.push_back(run.s.grid.nodes[n].q[L::momentum + d]);
+    return after;
+  };
+  GridWork<2> free_work, work;
+  const std::vector<double> held = hold(0.0, free_work), damped = hold(0.7, work);
+  double kinetic = 0.0;
+  int stopped = 0;
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    const double before = i % 2 == 0 ? 3.0 : -2.0;
+    CAPTURE(i, before, held[i], damped[i]);
+    CHECK(damped[i] * held[i] >= 0.0);
+    CHECK(std::abs(damped[i]) <= std::abs(held[i]));
+    stopped += std::abs(held[i]) < 0.3 * std::abs(before);
+    kinetic += 0.5 * 250.0 * (damped[i] * damped[i] - before * before);
+  }
+  CHECK(stopped > 5);
+  CHECK(work.damping < 0.0);
+  CHECK(work.damping + work.boundary == Approx(kinetic));
+  CHECK(free_work.damping == 0.0);
+}

@@ -258,6 +258,28 @@ TEST_CASE("Particles the solver cannot start from are named", "[mpm]") {
   CHECK_THAT(message([](auto&, auto& c) { c.right_roller = -1.0; }), Contains("left_roller"));
 }
 
+TEST_CASE("Points without a strength of their own have that of their material", "[mpm]") {
+  ParticleSet p;
+  p.materials = {liquefied(5e6, 6e3)};
+  add_lattice(p, {0.0, 0.0, 2.0, 1.0}, 0.5, 1900.0);
+  // as transfer.map writes them: 0 where soil has not liquefied
+  p.history["strength"].assign(p.size(), 0.0);
+  p.history["soft_strength"].assign(p.size(), 0.0);
+  p.history["strength"][3] = 2e3;
+  p.history["soft_strength"][3] = 1e3;
+  p.history["plastic_strain"].assign(p.size(), 0.25);
+  const Simulation<2> s = make_simulation(p, free_space(0.5));
+  for (std::size_t q = 0; q < p.size(); ++q) {
+    const bool own = s.points.index[q] == 3;
+    CHECK(s.points.state[0][q] == 0.25);
+    CHECK(s.points.state[2][q] == (own ? 2e3 : 6e3));
+    CHECK(s.points.state[3][q] == (own ? 1e3 : 3e3));
+  }
+  p.materials[0].parameters.erase("strength");
+  CHECK_THAT(input_error([&] { make_simulation(p, free_space(0.5)); }),
+             Contains("'strength'") && Contains("liquefied"));
+}
+
 TEST_CASE("A state that runs away ends with a message", "[mpm]") {
   const Scratch folder;
   ParticleSet p = column();

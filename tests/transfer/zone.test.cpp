@@ -4,6 +4,7 @@
 #include "tests/transfer/zone_grid.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <unistd.h>
 
@@ -153,6 +154,72 @@ TEST_CASE("soil above liquefied soil can keep its strength", "[transfer]") {
   }
 }
 
+TEST_CASE("depths and times are the same whether soil above keeps its strength or not",
+          "[transfer]") {
+  const Column column({7.0, 4.0, 6.0});
+  ZoneConfig config = column_config();
+  const LiquefactionZone all = column.find(config);
+  config.zone = ZoneExtent::liquefied;
+  const LiquefactionZone only = column.find(config);
+  CHECK(only.window_depth_max == all.window_depth_max);
+  CHECK(only.window_depth_any == all.window_depth_any);
+  CHECK(only.window_depth_interpolated == all.window_depth_interpolated);
+  CHECK(only.window_depth_interpolated[0] == Approx(6.2));
+  CHECK(only.window_depth_strong == all.window_depth_strong);
+  CHECK(only.window_depth_before_slide == all.window_depth_before_slide);
+  CHECK(only.strong_shaking_end == 1.5);
+  CHECK(all.strong_shaking_end == 1.5);
+  // A zone that is drawn has its own depths, but the shaking is the same.
+  config.zone = ZoneExtent::line;
+  config.line = {{0.0, 5.0}, {10.0, 5.0}};
+  const LiquefactionZone drawn = column.find(config);
+  CHECK(drawn.window_depth_max == std::vector<double>{5.0, 5.0});
+  CHECK(drawn.strong_shaking_end == 1.5);
+}
+
+TEST_CASE("averages over less than the recording interval are named", "[transfer]") {
+  const Column column({7.0, 4.0, 6.0});  // every 0.5 s
+  const auto notes = [&](double smoothing, double sustain) {
+    ZoneConfig config = column_config();
+    config.transfer.automatic.smoothing = smoothing;
+    config.transfer.automatic.sustain = sustain;
+    std::vector<std::string> found;
+    for (const std::string& note : column.find(config).notes)
+      if (note.starts_with("automatic.")) found.push_back(note);
+    return found;
+  };
+  CHECK(notes(1.0, 1.0).empty());
+  CHECK(notes(0.0, 0.0).empty());  // as asked for
+  CHECK(notes(0.51, 0.5).empty());
+  REQUIRE(notes(0.5, 0.4).size() == 2);
+  CHECK_THAT(notes(0.5, 1.0)[0], Catch::StartsWith("automatic.smoothing: 0.5 s is not above"));
+  CHECK_THAT(notes(1.0, 0.1)[0], Catch::StartsWith("automatic.sustain: 0.1 s"));
+}
+
+TEST_CASE("a record that ends before the motion is named", "[transfer]") {
+  const auto told = [](double frequency_of_decay) {
+    const Column column(std::vector<double>(20, 7.0));
+    const auto path = std::filesystem::temp_directory_path() /
+                      fmt::format("flowslide-zone-record-{}.h5", getpid());
+    const FemHistory history = column.history();
+    FemHistoryWriter writer(path, column.mesh, {{"sand", 1, 2000.0}, {"rock", 2, 1500.0}}, {});
+    writer.set_gravity(history.gravity());
+    for (std::size_t k = 0; k < 20; ++k) {
+      FemFrame frame = history.frame(k);
+      const double v = std::exp(-frequency_of_decay * frame.time);
+      for (auto& velocity : frame.velocity) velocity = {k % 2 == 0 ? v : -v, 0.0};
+      writer.append(frame);
+    }
+    writer.finish();
+    const LiquefactionZone zone = find_zone(FemHistory(path), column_config());
+    std::filesystem::remove(path);
+    return std::ranges::count_if(
+        zone.notes, [](const std::string& n) { return n.starts_with("the record ends at 10 s"); });
+  };
+  CHECK(told(0.0) == 1);
+  CHECK(told(1.0) == 0);  // the whole motion, and its coda
+}
+
 TEST_CASE("the zone of the moment can be asked for", "[transfer]") {
   ZoneConfig config = column_config();
   config.r_u.over_time = RuOverTime::instantaneous;
@@ -227,6 +294,17 @@ TEST_CASE("stress outside the strength table is noted", "[transfer]") {
   // 5 and 15 kPa below, 45 and 55 kPa above.
   REQUIRE(zone.notes.size() == 2);
   CHECK_THAT(zone.notes[1], Catch::StartsWith("40 of 60") && Catch::Contains("20 to 40 kPa"));
+}
+
+TEST_CASE("residual strength above the effective stress of its element is noted", "[transfer]") {
+  ZoneConfig config = column_config();
+  config.strength.table = {{0.0, 8e3}, {100e3, 8e3}};
+  const LiquefactionZone zone = Column({4.0}).find(config);
+  // 5 kPa in the uppermost row only
+  CHECK_THAT(zone.notes.back(), Catch::StartsWith("10 of 60 liquefied elements have a residual") &&
+                                    Catch::Contains("8 kPa at 5 kPa"));
+  const LiquefactionZone weak = Column({4.0}).find(column_config());
+  for (const std::string& note : weak.notes) CHECK_THAT(note, !Catch::Contains("residual"));
 }
 
 TEST_CASE("nothing liquefied is a zone of nothing, and says so", "[transfer]") {

@@ -1,6 +1,7 @@
 #include "workflows/stages/cross_checks.hpp"
 
 #include "core/check.hpp"
+#include "report/check_config.hpp"
 #include "tests/support/scratch.hpp"
 
 #include <functional>
@@ -339,6 +340,27 @@ TEST_CASE("Depths count from a pond above the soil") {
   CHECK_THAT(at(90.0), Contains("60 m above"));
 }
 
+TEST_CASE("The pond of a report stands in the section") {
+  const auto at = [](double pond, std::optional<double> surface) {
+    Findings found;
+    check_freeboard(pond, dam().mesh, surface, found);
+    return answer(found);
+  };
+  CHECK(at(28.0, 30.0).errors.empty());
+  CHECK(at(28.0, 30.0).warnings.empty());
+  CHECK(at(28.0, std::nullopt).warnings.empty());
+  CHECK_THAT(at(31.0, 30.0).errors, Contains("above the highest ground at y = 30 m"));
+  CHECK_THAT(at(-1.0, 30.0).errors, Contains("there is no pond"));
+  CHECK_THAT(at(15.0, 30.0).warnings, Contains("one datum"));
+}
+
+TEST_CASE("A section that stood has moved less than one that failed") {
+  ReportConfig config;
+  CHECK_NOTHROW(check(config));
+  config.stood = config.moved;
+  CHECK_THROWS_WITH(check(config), Contains("stood: 1 m is not below moved: 1 m"));
+}
+
 TEST_CASE("The shaking ends by the rule that chooses the transfer") {
   StopAtTransferConfig stop;
   ZoneConfig zone;
@@ -350,6 +372,12 @@ TEST_CASE("The shaking ends by the rule that chooses the transfer") {
   stop.r_u.threshold = 0.9;
   compare_transfer_rules(stop, zone, found);
   CHECK_THAT(answer(found).warnings, Contains("r_u.threshold 0.9 -> 0.7"));
+  // columns decide depths, and these the onset: they are settings of the rule
+  Findings columns;
+  stop.r_u.threshold = zone.r_u.threshold;
+  stop.columns.neighbours = 0;
+  compare_transfer_rules(stop, zone, columns);
+  CHECK_THAT(answer(columns).warnings, Contains("columns.neighbours 0 -> 1"));
 }
 
 TEST_CASE("Sections have the size of sections") {

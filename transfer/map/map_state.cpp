@@ -1,5 +1,6 @@
 #include "transfer/map/map_state.hpp"
 
+#include "model/brought_state.hpp"
 #include "transfer/map/map_fields.hpp"
 #include "transfer/seeding/toe.hpp"
 
@@ -40,14 +41,8 @@ typename M::State state_of(const Material<M>& m, const ParticleSet& p, std::size
   typename M::State state = M::initial_state(m.params);
   if constexpr (M::state_names.size() > 0) {
     auto numbers = std::bit_cast<std::array<double, M::state_names.size()>>(state);
-    for (std::size_t k = 0; k < numbers.size(); ++k) {
-      const std::string name(M::state_names[k]);
-      const auto given = p.history.find(name);
-      if (name == "pore_pressure")
-        numbers[k] = p.pore_pressure[i];
-      else if (given != p.history.end() && (!name.ends_with("strength") || given->second[i] > 0.0))
-        numbers[k] = given->second[i];
-    }
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+      numbers[k] = BroughtState(p, M::state_names[k]).at(i, numbers[k]);
     state = std::bit_cast<typename M::State>(numbers);
   }
   return state;

@@ -1,6 +1,7 @@
 #include "transfer/zone/columns.hpp"
 
 #include "core/check.hpp"
+#include "core/median.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +17,7 @@ double median_width(const QuadMesh& mesh, std::span<const std::int32_t> elements
     const auto [low, high] = std::minmax({quad[0][0], quad[1][0], quad[2][0], quad[3][0]});
     widths.push_back(high - low);
   }
-  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
-  std::ranges::nth_element(widths, middle);
-  return *middle;
+  return median(std::move(widths));
 }
 
 std::vector<std::int32_t> nodes_of(const QuadMesh& mesh, std::span<const std::int32_t> elements) {

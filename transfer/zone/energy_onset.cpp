@@ -48,6 +48,8 @@ EnergyLevels energy_levels(const AutomaticTransfer& rule, const ZoneHistory& h,
   }
   if (r.liquefied == n) return r;
 
+  // What moves before anything has liquefied is taken for shaking, a slide too: of a dam that fails
+  // first by yielding, the envelope holds that slide, and onset is the later one that outgrows it.
   // Ratios of two energies that are both near zero say nothing.
   const double significant = r.liquefied > 0 ? 0.1 * base[r.liquefied - 1] : 0.0;
   double largest = 0.0;

@@ -1,12 +1,15 @@
 #include "transfer/zone/zone.hpp"
 
 #include "core/check.hpp"
+#include "core/median.hpp"
 #include "transfer/zone/zone_extent.hpp"
 #include "transfer/zone/zone_r_u.hpp"
 #include "transfer/zone/zone_record.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 namespace flowslide {
 namespace {
@@ -59,6 +62,27 @@ void flag_elements(LiquefactionZone& zone, const QuadMesh& mesh, const ZoneParts
   }
 }
 
+/// Sand that has not liquefied has less than its effective stress, and what has liquefied much
+/// less.
+void note_strong(LiquefactionZone& zone, const QuadMesh& mesh) {
+  std::size_t liquefied = 0, strong = 0, worst = 0;
+  double largest = 1.0;
+  for (std::size_t e = 0; e < mesh.num_elements(); ++e) {
+    if (zone.liquefied[e] == 0) continue;
+    ++liquefied;
+    const double ratio = zone.strength[e] / std::max(zone.sigma_v0[e], 0.0);
+    if (!(ratio > 1.0)) continue;
+    ++strong;
+    if (ratio > largest) std::tie(largest, worst) = std::pair(ratio, e);
+  }
+  if (strong > 0)
+    zone.notes.push_back(fmt::format(
+        "{} of {} liquefied elements have a residual strength above their initial vertical "
+        "effective stress (element {}: {:.3g} kPa at {:.3g} kPa)",
+        strong, liquefied, mesh.element_tags[worst], 1e-3 * zone.strength[worst],
+        1e-3 * zone.sigma_v0[worst]));
+}
+
 /// Depth below the pond surface of the lowest node of the soil that lies in a zone given by the
 /// user.
 double depth_of_shape(const QuadMesh& mesh, const ZoneParts& parts, const ZoneShape& shape,
@@ -85,24 +109,28 @@ std::vector<double> largest(const std::vector<std::vector<double>>& table, std::
   return result;
 }
 
-/// Depths in the windows up to the transfer by every rule, or those of a zone given by the user.
+/// Depths in the windows up to the transfer by every rule, or those of a zone given by the user;
+/// onset and end of strong shaking, which any shaking has.
 void add_depths(LiquefactionZone& zone, const ZoneRecorder& record, const ZoneParts& parts,
                 const ZoneShape& shape, const ZoneConfig& config) {
   const ZoneHistory& h = zone.history;
   zone.window_names = h.window_names;
   zone.onset_time = kUnset;
-  if (config.zone != ZoneExtent::automatic || h.time.empty()) {
+  std::size_t transfer = 0, strong = 0, slide = 0;
+  if (zone.transfer_frame >= 0) {
+    transfer = static_cast<std::size_t>(zone.transfer_frame);
+    strong = std::min(record.strong_shaking_end(), transfer);
+    slide = std::min(record.onset().value_or(transfer), transfer);
+    if (slide < transfer) zone.onset_time = h.time[slide];
+    zone.strong_shaking_end = h.time[strong];
+  }
+  if (!found_from_r_u(config.zone)) {
     for (const auto& [name, window] : windows_or_all(config))
       zone.window_depth_max.push_back(depth_of_shape(record.mesh(), parts, shape, window, config));
     zone.window_depth_any = zone.window_depth_interpolated = zone.window_depth_strong =
         zone.window_depth_before_slide = zone.window_depth_max;
     return;
   }
-  const auto transfer = static_cast<std::size_t>(zone.transfer_frame);
-  const std::size_t strong = std::min(record.strong_shaking_end(), transfer);
-  const std::size_t slide = std::min(record.onset().value_or(transfer), transfer);
-  if (record.onset() && slide < transfer) zone.onset_time = h.time[slide];
-  zone.strong_shaking_end = h.time[strong];
   zone.window_depth_max = largest(h.depth, transfer);
   zone.window_depth_any = largest(h.depth_any, transfer);
   zone.window_depth_interpolated = largest(h.depth_interpolated, transfer);
@@ -121,6 +149,35 @@ void note_large_r_u(LiquefactionZone& zone, const ZoneRecorder& record) {
       "weighs, noise of the pore pressure there or too small an initial stress",
       r.value, record.mesh().node_tags[n], record.mesh().nodes[n][0], record.mesh().nodes[n][1],
       r.time));
+}
+
+/// Averages over less than the time between two recorded states are none.
+void note_short_averages(LiquefactionZone& zone, const AutomaticTransfer& rule) {
+  const std::vector<double>& t = zone.history.time;
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < t.size(); ++i) steps.push_back(t[i] - t[i - 1]);
+  const double interval = median(std::move(steps));
+  const auto note = [&](std::string_view key, double length, std::string_view what) {
+    zone.notes.push_back(
+        fmt::format("automatic.{}: {:g} s is not above the {:g} s between recorded states: {}", key,
+                    length, interval, what));
+  };
+  constexpr double kRounded = 1.0 + 1e-6;  // recorded times are
+  if (rule.smoothing > 0.0 && rule.smoothing <= interval * kRounded)
+    note("smoothing", rule.smoothing, "a mean over it holds one state, and averages nothing");
+  if (rule.sustain > 0.0 && rule.sustain * kRounded < interval)
+    note("sustain", rule.sustain, "the energy need not stay above its envelope for a second state");
+}
+
+/// A record that ends while the ground still moves does not say when strong shaking ends.
+void note_truncated(LiquefactionZone& zone, const ZoneRecorder& record) {
+  constexpr double kMoving = 0.25;
+  if (zone.transfer_frame < 0 || !(record.motion_left() > kMoving)) return;
+  zone.notes.push_back(fmt::format(
+      "the record ends at {:.4g} s while its base still moves ({:.2g} times the mean squared "
+      "velocity of before): {:.4g} s is the end of its strong shaking, and not that of the motion",
+      zone.history.time.back(), record.motion_left(),
+      zone.history.time[record.strong_shaking_end()]));
 }
 
 }  // namespace
@@ -150,9 +207,11 @@ LiquefactionZone find_zone(const FemHistory& history, const ZoneConfig& config,
   zone.sigma_v0 = reference.sigma_v0;
   zone.notes = reference.notes;
   note_large_r_u(zone, record);
+  note_short_averages(zone, config.transfer.automatic);
+  note_truncated(zone, record);
   const ZoneShape shape = zone_shape(config, mesh, parts.soil, zone.r_u_node);
   flag_elements(zone, mesh, parts, shape, config);
-
+  note_strong(zone, mesh);
   add_depths(zone, record, parts, shape, config);
   return zone;
 }

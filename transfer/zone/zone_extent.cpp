@@ -1,6 +1,7 @@
 #include "transfer/zone/zone_extent.hpp"
 
 #include "core/check.hpp"
+#include "model/outline.hpp"
 #include "transfer/zone/columns.hpp"
 
 #include <algorithm>
@@ -11,20 +12,6 @@ namespace flowslide {
 namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
-
-bool inside(std::span<const Vec2> polygon, Vec2 p) {
-  bool odd = false;
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    const Vec2 a = polygon[i];
-    const Vec2 b = polygon[j];
-    const double cross = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
-    const double along = (p[0] - a[0]) * (p[0] - b[0]) + (p[1] - a[1]) * (p[1] - b[1]);
-    if (cross == 0.0 && along <= 0.0) return true;
-    if ((a[1] > p[1]) == (b[1] > p[1])) continue;
-    if (p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])) odd = !odd;
-  }
-  return odd;
-}
 
 /// The chain of corners from the leftmost to the rightmost one that runs below the other.
 std::vector<Vec2> lower_chain(std::span<const Vec2> polygon) {
@@ -70,7 +57,8 @@ double height_on(std::span<const Vec2> line, double x) {
 }
 
 bool contains(const ZoneShape& shape, Vec2 point) {
-  if (!shape.polygon.empty()) return inside(shape.polygon, point);
+  if (!shape.polygon.empty())
+    return on_outline(shape.polygon, point) || inside_outline(shape.polygon, point);
   return point[1] >= height_on(shape.lower_boundary, point[0]);
 }
 

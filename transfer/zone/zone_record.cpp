@@ -186,14 +186,31 @@ std::optional<std::size_t> ZoneRecorder::onset() const {
   return found ? std::optional(found->sample) : std::nullopt;
 }
 
-std::size_t ZoneRecorder::strong_shaking_end() const {
+std::vector<double> ZoneRecorder::base_motion() const {
   std::vector<double> sum(base_kinetic_.size());
   for (std::size_t i = 1; i < sum.size(); ++i)
     sum[i] = sum[i - 1] + 0.5 * (base_kinetic_[i] + base_kinetic_[i - 1]) *
                               (history_.time[i] - history_.time[i - 1]);
+  return sum;
+}
+
+std::size_t ZoneRecorder::strong_shaking_end() const {
+  const std::vector<double> sum = base_motion();
   std::size_t i = 0;
   while (i + 1 < sum.size() && sum[i] < 0.95 * sum.back()) ++i;
   return i;
+}
+
+double ZoneRecorder::motion_left() const {
+  const std::vector<double> sum = base_motion();
+  if (sum.empty() || !(sum.back() > 0.0)) return 0.0;
+  const std::vector<double>& t = history_.time;
+  std::size_t begin = 0;
+  while (sum[begin + 1] < 0.05 * sum.back()) ++begin;
+  const std::size_t end = strong_shaking_end();
+  if (end + 1 >= sum.size()) return 1.0;
+  const double before = (sum[end] - sum[begin]) / (t[end] - t[begin]);
+  return (sum.back() - sum[end]) / (t.back() - t[end]) / before;
 }
 
 TransferChoice ZoneRecorder::choose() const {

@@ -44,6 +44,9 @@ class ZoneRecorder {
   [[nodiscard]] std::optional<std::size_t> onset() const;
   /// Instant at which 95 % of the squared velocity of the base has passed, in time.
   [[nodiscard]] std::size_t strong_shaking_end() const;
+  /// Mean squared velocity of the base from then to the end of the record, over that of the 90 %
+  /// before; small where the record holds the whole motion, 1 where it breaks off.
+  [[nodiscard]] double motion_left() const;
   /// Largest r_u so far and where; node -1 without any.
   struct LargestRu {
     double value = 0.0, time = 0.0;
@@ -55,6 +58,7 @@ class ZoneRecorder {
 
  private:
   void check_finite(const FemFrame& frame) const;
+  [[nodiscard]] std::vector<double> base_motion() const;  ///< integral of base_kinetic_
   void append_depths(std::span<const Vec2> positions, std::span<const double> r_u);
   QuadMesh mesh_;
   TransferRuleConfig config_;

@@ -1,4 +1,5 @@
 #include "core/elementary.hpp"
+#include "model/front.hpp"
 #include "verify/mpm/list.hpp"
 #include "verify/mpm/trial.hpp"
 
@@ -44,10 +45,11 @@ double surface(const Points<2>& p, double x, double cell) {
 
 /// Front as the x beyond which `share` of the mass lies, plus half a point.
 double front(const Points<2>& p, double cell, double share) {
-  std::vector<double> x(p.x[0].begin(), p.x[0].end());
-  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(x.size()));
-  std::nth_element(x.begin(), x.begin() + rank, x.end(), std::greater<>());
-  return x[static_cast<std::size_t>(rank)] + 0.25 * cell;
+  std::vector<Place> places;
+  for (std::size_t q = 0; q < p.size(); ++q) places.push_back({p.x[0][q], p.mass[q]});
+  double at = 0.0;
+  places_beyond(places, {&share, 1}, {&at, 1});
+  return at + 0.25 * cell;
 }
 
 MaterialSpec tresca(double strength, double stiffness_ratio, double nu) {

@@ -15,7 +15,6 @@ constexpr double kDensity = 1600.0, kGrains = 2500.0;  ///< of the bulk and of g
 constexpr double kStiffness = 127.0;
 constexpr double kRise = 0.26, kInertial = 0.279;  ///< of mu_i, glass beads: Jop et al. (2006)
 constexpr double kLongest = 12.5, kLook = 0.3;     ///< [sqrt(height / g)]
-constexpr double kQuiet = 1e-4;                    ///< of the largest kinetic energy: at rest
 
 MaterialSpec grains(const DryColumn& c, double height) {
   std::map<std::string, double> v{{"youngs_modulus", kStiffness * kDensity * kGravity * height},
@@ -129,14 +128,16 @@ Deposit run(DryColumn c, int cells) {
   StepScratch<Dim> scratch(1);
   prepare(s, scratch, true);
   const double unit = std::sqrt(height / kGravity);
-  double peak = 0.0;
+  double peak = 0.0, now = 0.0;
   for (double t = kLook; t <= kLongest; t += kLook) {
     while (s.time < t * unit) advance(s, scratch);
-    const double now = kinetic(s.points);
+    now = kinetic(s.points);
     peak = std::max(peak, now);
     if (now < kQuiet * peak) break;
   }
-  return measure(s.points, c, height, cell);
+  Deposit deposit = measure(s.points, c, height, cell);
+  deposit.motion = now / peak;
+  return deposit;
 }
 
 }  // namespace

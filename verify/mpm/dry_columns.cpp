@@ -29,6 +29,7 @@ double round_front(double a) { return a < 1.7 ? 1.24 * a : 1.6 * std::sqrt(a); }
 
 void compare(CheckList& checks, const std::string& name, const Deposit& d, double front,
              double height) {
+  checks.at_most(name + "_motion_left", d.motion, kQuiet);
   checks.near(name + "_front", d.front, front, kShare * front);
   if (is_set(height)) checks.near(name + "_height", d.height, height, kShare * height);
 }

@@ -33,11 +33,16 @@ DryColumn sand(double aspect);
 /// The glass beads of Lajeunesse et al. (2005) in a channel of 45 mm.
 DryColumn beads(double aspect);
 
+/// Kinetic energy, of the largest, at which a collapse is at rest. Those that are not by then are
+/// measured after 12.5 sqrt(height / g) all the same.
+inline constexpr double kQuiet = 1e-4;
+
 /// What is left when all is at rest, lengths over the first length.
 struct Deposit {
   double front = 0.0;   ///< beyond it lies 0.5 % of the mass; past the first length
   double edge = 0.0;    ///< where the deposit is as thin as a grain; past the first length
   double height = 0.0;  ///< at the wall or axis
+  double motion = 0.0;  ///< kinetic energy that is left, of the largest: at rest below kQuiet
 };
 
 /// @param cells in the height or the length, whichever is less

@@ -11,7 +11,7 @@ namespace flowslide::mpm {
 namespace {
 
 struct Slide {
-  double front;   ///< x that 1 % of the points have passed [m]
+  double front;   ///< x beyond which 1 % of the mass lies [m]
   double centre;  ///< how far the centre of mass has moved [m]
   double energy_error;
 };
@@ -36,10 +36,7 @@ Slide slide(const DamScene& scene, double end) {
   while (s.time < end) advance(s, scratch);
   std::vector<Place> buffer;
   const MpmSample now = sample(s, start, std::vector<bool>(s.materials.size(), true), buffer);
-  std::vector<double> x(s.points.x[0].begin(), s.points.x[0].end());
-  const auto at = x.begin() + static_cast<std::ptrdiff_t>(x.size() - x.size() / 100);
-  std::nth_element(x.begin(), at, x.end());
-  return {*at, centre() - before, now.energy_error};
+  return {now.front_q99, centre() - before, now.energy_error};
 }
 
 }  // namespace

@@ -57,6 +57,31 @@ void check_pond(const TransferRuleConfig& rule, const QuadMesh& mesh,
                     rule.pond_surface, rule.pond_surface - top, height));
 }
 
+void check_freeboard(double pond, const QuadMesh& mesh, std::optional<double> pond_surface,
+                     Findings& found) {
+  double bottom = std::numeric_limits<double>::infinity(), top = -bottom;
+  for (const Vec2& p : mesh.nodes) {
+    bottom = std::min(bottom, p[1]);
+    top = std::max(top, p[1]);
+  }
+  // Tailings lie a little below the water, or some metres above it.
+  constexpr double kFar = 0.2;
+  if (pond > top)
+    found.errors.push_back(fmt::format(
+        "pond: {:g} m is above the highest ground at y = {:g} m (the freeboard would be "
+        "negative before anything moves) check the level and its datum",
+        pond, top));
+  else if (pond <= bottom)
+    found.errors.push_back(fmt::format(
+        "pond: {:g} m is not above the bottom of the section at y = {:g} m (there is no pond) check "
+        "the level and its datum",
+        pond, bottom));
+  else if (pond_surface && std::abs(pond - *pond_surface) > kFar * (top - bottom))
+    found.warnings.push_back(fmt::format(
+        "pond: {:g} m, but pond_surface of the zone is {:g} m. Do both count from one datum?", pond,
+        *pond_surface));
+}
+
 void compare_transfer_rules(const StopAtTransferConfig& stop, const ZoneConfig& zone,
                             Findings& found) {
   const std::string changes =

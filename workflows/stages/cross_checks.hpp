@@ -72,6 +72,10 @@ void check_strength(const StrengthConfig& strength, Findings& found);
 /// The pond surface against the soil that can liquefy.
 void check_pond(const TransferRuleConfig& rule, const QuadMesh& mesh,
                 const std::vector<HistoryMaterial>& materials, Findings& found);
+/// The level of the pond in a report against the section, and the pond surface of the zone if
+/// known.
+void check_freeboard(double pond, const QuadMesh& mesh, std::optional<double> pond_surface,
+                     Findings& found);
 /// Settings of fem.run's stop_at_transfer that transfer.zone has otherwise.
 void compare_transfer_rules(const StopAtTransferConfig& stop, const ZoneConfig& zone,
                             Findings& found);

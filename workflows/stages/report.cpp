@@ -1,6 +1,7 @@
 #include "report/report.hpp"
 
 #include "model/motion_file.hpp"
+#include "report/check_config.hpp"
 #include "report/figures.hpp"
 #include "workflows/stages/cross_checks.hpp"
 #include "workflows/stages/preview.hpp"
@@ -79,6 +80,7 @@ struct ReportStage {
     if (!config.figures || !config.python) return {};
     return {*config.python};
   }
+  static void check(const Config& config) { flowslide::check(config); }
   static std::any preview(const Config& config, const Previews& in, Findings& found) {
     Preview p = merged(in);
     p.toe = config.toe;
@@ -91,6 +93,9 @@ struct ReportStage {
         found.errors.push_back(
             fmt::format("regions.{}: {} corners (a region needs three or more) give its outline",
                         name, region.outline.size()));
+    if (config.pond && p.section)
+      check_freeboard(*config.pond, p.section->mesh,
+                      p.zone ? std::optional(p.zone->pond_surface) : std::nullopt, found);
     if (config.toe && p.flow && p.map && p.section && !p.materials.empty())
       check_toe(*config.toe, *p.flow, soil_of(*p.section, *p.map, p.materials), found);
     return p;
