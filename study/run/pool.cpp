@@ -323,6 +323,7 @@ class Pool {
         costs_.learn(uses(r.node), *node.finished);
         events_.ended({r.node, State::done, r.end == "found", seconds});
         progress_.resolve();
+        tidier_.made(progress_, r.node);
         tidier_.tidy(progress_);
         return;
       }

@@ -17,11 +17,17 @@ bool has_frames(const WorkflowStage& stage) {
 Tidier::Tidier(const Plan& plan, const Store& store, Locks& locks)
     : plan_(plan), store_(store), locks_(locks) {}
 
-void Tidier::measure(const StudyState& progress) {
+std::string Tidier::name_of(const StudyState& progress, std::size_t node) const {
   // Equal settings have equal keys, whatever the stage is called.
-  const auto name = [&](std::size_t n) {
-    return plan_.nodes[n].stage.name + "/" + progress.node(n).key;
-  };
+  return plan_.nodes[node].stage.name + "/" + progress.node(node).key;
+}
+
+void Tidier::made(const StudyState& progress, std::size_t node) {
+  kept_.erase(name_of(progress, node));
+}
+
+void Tidier::measure(const StudyState& progress) {
+  const auto name = [&](std::size_t n) { return name_of(progress, n); };
   needed_.clear();
   for (std::size_t n = 0; n < plan_.nodes.size(); ++n) {
     const NodeState& state = progress.node(n);

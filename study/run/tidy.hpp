@@ -14,6 +14,8 @@ namespace flowslide::study {
 class Tidier {
  public:
   Tidier(const Plan& plan, const Store& store, Locks& locks);
+  /// The files of a node are new: they are measured again.
+  void made(const StudyState& progress, std::size_t node);
   /// Returns the bytes that the store takes afterwards, without what stages are writing.
   double tidy(const StudyState& progress);
 
@@ -26,6 +28,7 @@ class Tidier {
     double seconds = 0.0;
     bool has_frames = false;
   };
+  [[nodiscard]] std::string name_of(const StudyState& progress, std::size_t node) const;
   void measure(const StudyState& progress);
   void drop(Kept& kept);
 
