@@ -42,6 +42,7 @@ struct StateOf {
   T z_max = 0.0;             ///< limit of fabric
   T A_do = 0.0;              ///< dilatancy coefficient
   T void_ratio = 0.0;
+  T band = 1.0;  ///< length of softening over size of the element; 1: softens without a length
   bool operator==(const StateOf&) const = default;
 };
 
@@ -111,12 +112,12 @@ struct PM4Sand {
 
   using Deviator = pm4sand::DeviatorOf<double>;
   using State = pm4sand::StateOf<double>;
-  static constexpr std::array<std::string_view, 28> state_names{
+  static constexpr std::array<std::string_view, 29> state_names{
       "alpha_d",      "alpha_t",      "alpha_in_d",  "alpha_in_t",  "alpha_in_p_d", "alpha_in_p_t",
       "alpha_true_d", "alpha_true_t", "alpha_max_d", "alpha_max_t", "alpha_min_d",  "alpha_min_t",
       "z_d",          "z_t",          "z_in_d",      "z_in_t",      "held_d",       "held_t",
       "held_p",       "z_cum",        "z_peak",      "z_xp",        "p_zp",         "reversed",
-      "p_min",        "z_max",        "A_do",        "void_ratio"};
+      "p_min",        "z_max",        "A_do",        "void_ratio",  "band"};
 
   /// Numbers derived once from the parameters.
   struct Constants : pm4sand::SoilOf<double> {

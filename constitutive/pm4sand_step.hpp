@@ -27,7 +27,12 @@ Rates<T> rates(const SoilOf<T>& c, const StateOf<T>& s, const History<T>& h, con
   const Flow<T> w = flow(c, s, h, l, inverse_p, at);
   const T n_r = dot(w.n, at.s) * inverse;
   const T driving = 2.0 * G * dot(w.n, step.deviator) - n_r * K * step.volumetric;
-  const T elastic = 2.0 * G - K * w.D * n_r;
+  // Beyond the undrained peak the band takes the plastic strain of the element.
+  const T loss = K * w.D * n_r;
+  const auto softens = w.Kp < loss;
+  T share = 1.0;
+  if (any(softens)) share = select(softens, max(s.band, min(T(1.0), (loss - w.Kp) / G)), T(1.0));
+  const T elastic = 2.0 * G * share - loss;
   T L = driving / (w.Kp + elastic);
   const auto plastic = L > T(0.0);
   // Near the bounding surface the pull on the back-stress ratio is too stiff for explicit steps.
@@ -42,7 +47,7 @@ Rates<T> rates(const SoilOf<T>& c, const StateOf<T>& s, const History<T>& h, con
   const auto at_image = along >= T(1.0) && w.Kp > T(0.0);
   if (any(at_image)) L = select(at_image, max(L, (driving - w.b_n * l.p) / elastic), L);
   r.p = select(plastic, r.p - L * K * w.D, r.p);
-  r.s = select(plastic, r.s - (2.0 * G * L) * w.n, r.s);
+  r.s = select(plastic, r.s - (2.0 * G * share * L) * w.n, r.s);
   r.alpha = select(plastic, (along * w.b_n) * w.n + across * w.b_side, r.alpha);
   const auto grows = plastic && w.beyond_dilatancy && w.D < T(0.0);
   r.z = select(grows, (-h.fabric_rate * L) * (s.z_max * w.n + at.z), r.z);

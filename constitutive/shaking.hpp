@@ -61,6 +61,13 @@ typename M::State rest_state(const typename M::Params& p, const typename M::Cons
     return M::initial_state(p);
 }
 
+/// Tells a law that softens what share of an element its bands take: the length of softening over
+/// the size of the element. docs/theory/pm4sand.md, "A length for softening"
+template <class M>
+void set_band(typename M::State& state, double share) {
+  if constexpr (requires { state.band; }) state.band = share;
+}
+
 /// Out-of-plane stress at rest: that of elastic plane strain, or the mean of the plane where the
 /// law knows no other.
 template <class M>

@@ -8,7 +8,7 @@ namespace flowslide::fem {
 namespace {
 
 // Changes whenever the list of fields below changes.
-constexpr std::uint64_t kFields = 0x7368616b65637033;
+constexpr std::uint64_t kFields = 0x7368616b65637034;
 
 /// One list of fields for both directions: `Archive` writes or reads each. The forces carry the
 /// damping of the step that made them, so they belong to the state.

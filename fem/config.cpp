@@ -132,6 +132,10 @@ void Schema<FemConfig>::describe(FieldVisitor& v, FemConfig& c) {
   v.group("damping", c.damping, Schema<FemDampingConfig>::doc);
   v.group("stabilisation", c.stabilisation, Schema<StabilisationConfig>::doc);
   v.group("integration", c.integration, Schema<IntegrationConfig>::doc);
+  v.quantity("softening_length", c.softening_length, Dim::length, {.above = 0.0},
+             "size of elements for which the softening of pm4sand holds as given; in others the "
+             "same slip across a row of elements takes the same strength. Left out: the same "
+             "strain, whatever the size");
   v.quantity("end", c.end, Dim::time, {.above = 0.0}, "end of the run; left out: of the motion");
   v.quantity("stop_displacement", c.stop_displacement, Dim::length, {.above = 0.0},
              "the run ends early, at the first recorded state in which a node has moved this far "

@@ -89,6 +89,7 @@ struct FemConfig {
   FemDampingConfig damping;
   StabilisationConfig stabilisation;
   IntegrationConfig integration;
+  std::optional<double> softening_length;   ///< over which the laws' strains hold as given [m]
   std::optional<double> end;                ///< [s]; the duration of the motion if left out
   std::optional<double> stop_displacement;  ///< against the base [m]
   double output_interval = 0.25;            ///< [s]

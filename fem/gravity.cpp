@@ -2,6 +2,8 @@
 
 #include "fem/stiffness.hpp"
 
+#include <cmath>
+
 #include <Eigen/SparseCholesky>
 
 namespace flowslide::fem {
@@ -111,6 +113,14 @@ void solve_gravity(Solver& s, const GravitySettings& settings) {
     s.state.hourglass_y[e] = hy;
     set_rest_state(s, e, settings.compacts ? -(strain[0] + strain[1]) : 0.0);
   }
+}
+
+void spread_softening(Solver& s, double length) {
+  each_law(s.layout, 0, s.layout.elements.size(),
+           [&]<class M>(std::size_t first, std::size_t last) {
+             for (std::size_t e = first; e < last; ++e)
+               set_band<M>(state_of<M>(s, e), length / std::sqrt(s.layout.elements.area[e]));
+           });
 }
 
 double out_of_balance(Solver& s) {

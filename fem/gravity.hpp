@@ -17,6 +17,10 @@ struct GravitySettings {
 /// displacements stay zero. Throws NumericsError where the section is not held.
 void solve_gravity(Solver& s, const GravitySettings& settings);
 
+/// Softening over `length` [m], for laws that can: docs/theory/pm4sand.md, "A length for
+/// softening". After solve_gravity.
+void spread_softening(Solver& s, double length);
+
 /// Largest out-of-balance force over the weight of the heaviest unknown [-].
 double out_of_balance(Solver& s);
 

@@ -170,6 +170,7 @@ Solver make_section_at_rest(const SectionMesh& section, const FemConfig& config,
   for (double& g : s.hourglass_shear) g *= config.stabilisation.hourglass;
   progress.poll();
   solve_gravity(s, {config.gravity.permeability.value_or(kUnset), config.gravity.compacts});
+  if (config.softening_length) spread_softening(s, *config.softening_length);
   progress.poll();
   facts.out_of_balance = out_of_balance(s);
   refresh_moduli(s);

@@ -31,6 +31,7 @@ Points consolidated() {
     r.soil.push_back(i % 7 % r.soils.size());
     r.stress.push_back(at_rest(5e3 * static_cast<double>(1 + i)));
     r.state.push_back(PM4Sand::initial_state(r.soils[r.soil[i]], r.stress[i]));
+    r.state.back().band = 0.5 + 0.25 * static_cast<double>(i % 5);
   }
   r.strain.resize(r.state.size());
   return r;

@@ -32,6 +32,8 @@ std::vector<VerificationCase> fem_cases() {
        verify_implicit},
       {"fem/f9_slope", "slope of sand: explicit against implicit steps, until it liquefies", true,
        verify_implicit_slope},
+      {"fem/f9_length", "slope of sand that softens: three sizes of elements, with a length", false,
+       verify_softening_length},
       {"fem/f10_velacs", "level and inclined sand on the centrifuge", false, verify_centrifuge},
       {"fem/c2_rest", "a slope of sand at rest for 10 s", true, verify_rest},
       {"fem/c2_bending", "cantilever, against the beam", true, verify_bending},

@@ -18,6 +18,7 @@ std::vector<Check> verify_undrained_strength(std::string_view name);
 std::vector<Check> verify_pm4sand_step(std::string_view name);
 std::vector<Check> verify_implicit(std::string_view name);
 std::vector<Check> verify_implicit_slope(std::string_view name);
+std::vector<Check> verify_softening_length(std::string_view name);
 std::vector<Check> verify_centrifuge(std::string_view name);
 std::vector<Check> verify_rest(std::string_view name);
 std::vector<Check> verify_bending(std::string_view name);
