@@ -36,7 +36,7 @@ Slide slide(const DamScene& scene, double end) {
   while (s.time < end) advance(s, scratch);
   std::vector<Place> buffer;
   const MpmSample now = sample(s, start, std::vector<bool>(s.materials.size(), true), buffer);
-  return {now.front_q99, centre() - before, now.energy_error};
+  return {now.front_99, centre() - before, now.energy_error};
 }
 
 }  // namespace
