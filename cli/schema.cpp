@@ -77,7 +77,7 @@ void add_schema(CLI::App& app, Command& action) {
   command->add_flag("--study", *of_studies, "of study files instead");
   command->callback([of_studies, &action] {
     action = [of_studies] {
-      fmt::print("{}\n", (*of_studies ? study_schema() : workflow_schema(all_stages())).dump(2));
+      fmt::print("{}\n", *of_studies ? study_schema() : workflow_schema(all_stages()).dump(2));
       return 0;
     };
   });

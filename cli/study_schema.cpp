@@ -3,6 +3,8 @@
 #include "study/numbers/design.hpp"
 #include "study/plan/study_file.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace flowslide::cli {
 namespace {
 
@@ -114,7 +116,7 @@ Json part(Json more) {
 
 }  // namespace
 
-Json study_schema() {
+std::string study_schema() {
   const Json file = text("workflow, relative to this file");
   Json body = part({{"workflow", {{"anyOf", {file, entries(kName, file)}}}}});
   body["also"] = entries(kName, map(part({{"workflow", file}})));
@@ -124,16 +126,17 @@ Json study_schema() {
   body["analysis"] = map({{"results", one_or_list(text("column of the table"))},
                           {"thresholds", list_of(list_of(text("column of the table")))},
                           {"seed", count(0, "of the resampling")}});
-  return {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
-          {"title", "flowslide study"},
-          {"type", "object"},
-          {"required", {"schema", "name", "study"}},
-          {"additionalProperties", false},
-          {"properties",
-           {{"schema", {{"const", 1}}},
-            {"name", {{"type", "string"}, {"pattern", kName}}},
-            {"description", text("stands above the report")},
-            {"study", map(body, {"workflow"})}}}};
+  const Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+                       {"title", "flowslide study"},
+                       {"type", "object"},
+                       {"required", {"schema", "name", "study"}},
+                       {"additionalProperties", false},
+                       {"properties",
+                        {{"schema", {{"const", 1}}},
+                         {"name", {{"type", "string"}, {"pattern", kName}}},
+                         {"description", text("stands above the report")},
+                         {"study", map(body, {"workflow"})}}}};
+  return schema.dump(2);
 }
 
 }  // namespace flowslide::cli

@@ -1,9 +1,9 @@
 #pragma once
-#include <nlohmann/json.hpp>
+#include <string>
 
 namespace flowslide::cli {
 
 /// JSON Schema of study files, for editors. docs/guide/studies.md
-nlohmann::ordered_json study_schema();
+std::string study_schema();
 
 }  // namespace flowslide::cli
