@@ -26,6 +26,16 @@ typename M::State consolidated(const typename M::Params& p, const typename M::Co
     return M::initial_state(p);
 }
 
+/// Of the present state where the law tells it, else of its parameters.
+template <class M>
+Elasticity present_elasticity(const typename M::Params& p, const typename M::Constants& c,
+                              const Stress<2>& sigma, const typename M::State& state) {
+  if constexpr (requires { M::elasticity(c, state, sigma); })
+    return M::elasticity(c, state, sigma);
+  else
+    return M::elasticity(p);
+}
+
 template <class M>
 PointUnderTest point_with(const typename M::Params& p, const PointStress& s) {
   // A point follows strains and stresses, not time.
@@ -47,10 +57,7 @@ PointUnderTest point_with(const typename M::Params& p, const PointStress& s) {
           return update_law<M, 2, double>(c, state, stress, de, 0.0);
       },
       [c, p](const Stress<2>& stress, const State& state) {
-        if constexpr (requires { M::elasticity(c, state, stress); })
-          return M::elasticity(c, state, stress);
-        else
-          return M::elasticity(p);
+        return present_elasticity<M>(p, c, stress, state);
       });
 }
 

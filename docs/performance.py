@@ -1,13 +1,18 @@
 """Writes the tables of docs/performance.md and docs/images/work-precision.png from measurements.
 
     flowslide bench --json > docs/performance.json
+    flowslide study run docs/performance-dam.yaml --out DIR && cp DIR/table.csv docs/performance-dam.csv
     python3 docs/performance.py
 
-Needs Matplotlib. Text outside the marked tables is left alone.
+Run it on the machine that measured. Needs Matplotlib. Text outside the marked tables is left alone,
+and so are tables of what was not measured.
 """
+import csv
 import json
+import os
 import pathlib
 import re
+import statistics
 import subprocess
 
 import matplotlib
@@ -20,20 +25,67 @@ TARGETS = {"2d/linear": 20, "2d/quadratic": 12, "3d/linear": 12, "3d/quadratic":
 
 
 def speed_table(rows):
+    """One row per basis and number of points, laws beside each other."""
+    laws = list(dict.fromkeys(r["name"].split("/")[3] for r in rows))
     lines = [
-        "| dimension / basis | law | points | M updates/s/core | target | ns | bytes | triad GB/s "
-        "| % of roofline | efficiency of 2 threads, % |",
-        "|---|---|---|---|---|---|---|---|---|---|",
+        "| M updates/s/core | points | " + " | ".join(law.replace("_", " ") for law in laws)
+        + " | target | bytes | % of roofline | efficiency of 2 threads, % |",
+        "|---|---" + "|---" * len(laws) + "|---|---|---|---|",
     ]
+    by_scene = {}
     for r in rows:
         _, dim, basis, law, points = r["name"].split("/")
+        by_scene.setdefault((dim, basis, int(points)), {})[law] = r
+    for (dim, basis, points), by_law in by_scene.items():
+        values = " | ".join(f"{by_law[law]['value']:.1f}" for law in laws)
+        spans = (
+            span([r[key] for r in by_law.values()])
+            for key in ("bytes_per_update", "roofline_percent", "efficiency_2_threads_percent")
+        )
         lines.append(
-            f"| {dim} {basis} | {law} | {int(points):,} | {r['value']:.1f} "
-            f"| {TARGETS[f'{dim}/{basis}']} | {r['ns_per_update']:.0f} "
-            f"| {r['bytes_per_update']:.0f} | {r['triad_gb_per_s']:.1f} "
-            f"| {r['roofline_percent']:.0f} | {r.get('efficiency_2_threads_percent', 0):.0f} |"
+            f"| {dim} {basis} | {points:,} | {values} | {TARGETS[f'{dim}/{basis}']} "
+            f"| {' | '.join(spans)} |"
         )
     return "\n".join(lines)
+
+
+def span(values):
+    low, high = f"{min(values):.0f}", f"{max(values):.0f}"
+    return low if low == high else f"{low}-{high}"
+
+
+def mean_and_scatter(values, digits=1):
+    values = [float(v) for v in values]
+    return f"{statistics.mean(values):.{digits}f} +- {statistics.stdev(values):.{digits}f}"
+
+
+def static_table(rows):
+    lines = [
+        "| cell, m | `c_soft_ratio` | points | runout, m | without 0.5 % of the mass, m "
+        "| beyond the toe, t/m | at rest after, s | largest energy error |",
+        "|---|---|---|---|---|---|---|---|",
+    ]
+    groups = {}
+    for row in rows:
+        groups.setdefault((row["cell"], row["c_soft"]), []).append(row)
+    for (cell, ratio), repeats in groups.items():
+        column = lambda name: [row[name] for row in repeats]
+        tonnes = [float(v) / 1000 for v in column("mass_past_toe_kg_per_m")]
+        lines.append(
+            f"| {cell} | {float(ratio):g} | {int(float(repeats[0]['particles'])):,} "
+            f"| {mean_and_scatter(column('runout_m'))} "
+            f"| {mean_and_scatter(column('runout_mass_quantile_m'))} "
+            f"| {mean_and_scatter(tonnes, 0)} | {mean_and_scatter(column('rest_time_s'), 0)} "
+            f"| {max(map(float, column('energy_error'))):.0e} |"
+        )
+    return "\n".join(lines)
+
+
+def machine():
+    text = pathlib.Path("/proc/cpuinfo").read_text()
+    name = re.search(r"model name\s*: (.*)", text).group(1)
+    wide = "AVX-512" if " avx512f " in text else "AVX2" if " avx2 " in text else "SSE"
+    return f"{os.cpu_count()} cores of {name} ({wide}), shared with other guests"
 
 
 def valley_table(rows):
@@ -167,9 +219,9 @@ def draw(lines_of, path):
 
 
 def replace(text, mark, table):
-    pattern = re.compile(f"(<!-- {mark} -->\n).*?(\n<!-- end {mark} -->)", re.DOTALL)
+    pattern = re.compile(f"(<!-- {mark} -->).*?(\n<!-- end {mark} -->)", re.DOTALL)
     assert pattern.search(text), f"docs/performance.md has no marks for {mark}"
-    return pattern.sub(lambda m: m.group(1) + table + m.group(2), text)
+    return pattern.sub(lambda m: m.group(1) + "\n" + table + m.group(2), text)
 
 
 def main():
@@ -189,7 +241,12 @@ def main():
     if speed:
         build = speed[0]
         facts = f"Compiler g++ {build['compiler']}, flags `{build['flags'].strip()}`, commit {commit}."
-        text = replace(text, "speed", facts + "\n\n" + speed_table(speed))
+        text = replace(text, "machine", f"{machine()}. {facts}")
+        text = replace(text, "speed", speed_table(speed))
+    dam = DOCS / "performance-dam.csv"
+    if dam.exists():
+        with dam.open(newline="") as lines:
+            text = replace(text, "static", static_table(list(csv.DictReader(lines))))
     if curves:
         text = replace(text, "curves", curve_table(curves))
         draw(curves, DOCS / "images" / "work-precision.png")

@@ -121,9 +121,9 @@ fresh
 double dpkg-query 'case "$*" in *clang*) exit 1 ;; esac; printf "install ok installed"'
 double cmake 'case "$*" in --preset*) mkdir -p build/fuzz ;; esac'
 code=0
-PATH="$folder/bin" "$folder/checkout/cmake/build.sh" --preset fuzz one two 2>"$folder/err" || code=$?
+PATH="$folder/bin" "$folder/checkout/cmake/build.sh" --preset asan one two 2>"$folder/err" || code=$?
 expect "another preset needs its own packages" called "Status-Fd=1 clang libclang-rt-dev"
-expect "and builds all targets named" called "cmake --build --preset fuzz --target one two"
+expect "and builds all targets named" called "cmake --build --preset asan --target one two"
 
 fresh
 rm "$folder/bin/apt-get" "$folder/bin/dpkg-query"
