@@ -23,31 +23,16 @@ struct SolverMaterial {
   bool average_volume;  ///< F-bar: bulk modulus well above shear modulus
 };
 
-/// rho c^2 of compression without strain to the sides, K + 4/3 G [Pa]; where F-bar gives changes of
-/// volume another rate than shear, both count in full, K + 2 G.
+/// Stiffness that bounds the time step [Pa]: that of compression without strain to the sides, K +
+/// 4/3 G; where F-bar gives changes of volume another rate than shear, both count in full, K + 2 G.
 inline double wave_modulus(const Elasticity& e, bool average_volume) noexcept {
   return e.bulk + (average_volume ? 2.0 : 4.0 / 3.0) * e.shear;
-}
-
-/// What bounds the time step of `Dim` dimensions [Pa]: the largest eigenvalue of the elasticity
-/// over Dim, (Dim K + 2 G (1 - Dim/3)) / Dim where the rate of volume is the point's own, (Dim K +
-/// 2 G) / Dim with F-bar. docs/theory/time-step.md
-template <int Dim>
-double step_modulus(const Elasticity& e, bool average_volume) noexcept {
-  const double shape = 2.0 / Dim * e.shear;
-  const double taken = average_volume ? 0.0 : 2.0 / 3.0 * e.shear;
-  return std::max(e.bulk + shape - taken, shape);
-}
-/// The same of soil that resists no change of volume.
-template <int Dim>
-double shape_modulus(const Elasticity& e) noexcept {
-  return 2.0 / Dim * e.shear;
 }
 
 struct StressWork {
   double power_start = 0.0;  ///< dt sum V sigma : D with V and sigma before the step [J]
   double power_end = 0.0;    ///< the same with V and sigma after it [J]
-  double max_wave2 = 0.0;    ///< largest step_modulus / rho [m2/s2]
+  double max_wave2 = 0.0;    ///< largest wave_modulus / rho [m2/s2]
   double max_speed2 = 0.0;   ///< largest |v|^2 [m2/s2]
   double max_strain = 0.0;   ///< largest |L| dt of the step [-]
   void add(const StressWork& o) {

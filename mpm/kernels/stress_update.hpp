@@ -47,17 +47,16 @@ void write_state(Points<Dim>& p, std::int32_t q, int n,
   }
 }
 
-/// Step modulus of a law's result, `elastic` that without strain and gap, `shape` that without
-/// resistance to changes of volume [Pa].
+/// Wave modulus of a law's result, `elastic` that without strain and gap [Pa].
 template <int Dim, class M, class T, class Result>
 T present_modulus(const typename M::Constants& constants, const Result& result, double elastic,
-                  double shape) noexcept {
+                  double bulk) noexcept {
   if constexpr (requires {
                   M::template present_modulus<Dim>(constants, result.state, result.stress);
                 })
     return M::template present_modulus<Dim>(constants, result.state, result.stress);
   else if constexpr (requires { result.state.gap; })
-    return modulus_with_gap(elastic, elastic - shape, result.state.gap);
+    return modulus_with_gap(elastic, bulk, result.state.gap);
   else
     return elastic;
 }
@@ -93,7 +92,6 @@ template <int Dim, class M>
   using T = Lanes<Dim, M>;
   constexpr int V = kVoigt<Dim>;
   constexpr int width = kLanes<T>;
-  const double shape = shape_modulus<Dim>(material.elastic);
   RunSums<T> sums;
   for (std::int32_t q = run.first; q < run.last; q += width) {
     const int n = std::min<int>(width, run.last - q);
@@ -122,7 +120,7 @@ template <int Dim, class M>
     write_state<M, T>(p, q, n, result.state);
     const T new_volume = grown(volume, de[0] + de[1] + de[2]);
     write(p.volume, new_volume);
-    const T present = present_modulus<Dim, M, T>(constants, result, modulus, shape);
+    const T present = present_modulus<Dim, M, T>(constants, result, modulus, material.elastic.bulk);
     sums.wave2 = max(sums.wave2, present * new_volume * reciprocal(read(p.mass, q)));
     T v2 = 0.0, l2 = 0.0;
     unroll<Dim>([&](auto d) {
@@ -156,7 +154,7 @@ StressWork update_stress(Points<Dim>& p, const Tile<Dim>& tile, std::span<const 
   StressWork total;
   for (const MaterialRun& run : runs) {
     const SolverMaterial& m = materials[run.material];
-    const double modulus = step_modulus<Dim>(m.elastic, average && m.average_volume);
+    const double modulus = wave_modulus(m.elastic, average && m.average_volume);
     total.add(std::visit(
         [&]<class M>(const Typed<M>& law) {
           return update_run<Dim, M>(p, tile, run, m, law.constants, dt, modulus, s);

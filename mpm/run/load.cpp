@@ -212,7 +212,7 @@ void measure_points(Simulation<Dim>& s) {
     double& largest = s.largest_density[p.material[i]];
     largest = std::max(largest, p.mass[i] / p.volume[i]);
     const double modulus =
-        step_modulus<Dim>(s.materials[p.material[i]].elastic, s.averages(p.material[i]));
+        wave_modulus(s.materials[p.material[i]].elastic, s.averages(p.material[i]));
     s.last.max_wave2 = std::max(s.last.max_wave2, modulus * p.volume[i] / p.mass[i]);
     double speed2 = 0.0;
     for (const auto& v : p.v) speed2 += v[i] * v[i];

@@ -11,8 +11,7 @@
 namespace flowslide::mpm {
 namespace {
 
-/// What bounds step_modulus / rho (dt / h)^2 / 4 from above, per direction
-/// (docs/theory/time-step.md).
+/// What bounds (K + 2 G) / rho (dt / h)^2 / 4 from above, per direction (docs/theory/time-step.md).
 template <class Basis>
 double step_bound(const StepSettings& s) {
   switch (s.transfer) {
@@ -107,7 +106,7 @@ void sleep_or_wake(Simulation<Dim>& s) {
   const Points<Dim>& p = s.points;
   for (std::size_t q = 0; q < p.size(); ++q) {
     const double modulus =
-        step_modulus<Dim>(s.materials[p.material[q]].elastic, s.averages(p.material[q]));
+        wave_modulus(s.materials[p.material[q]].elastic, s.averages(p.material[q]));
     s.last.max_wave2 = std::max(s.last.max_wave2, modulus * p.volume[q] / p.mass[q]);
   }
 }

@@ -151,7 +151,7 @@ TEST_CASE("A wide gap takes the bulk modulus out of the time step", "[mpm]") {
   // One step can close 0.3, so K may act in it.
   CHECK(step_with_gap(0.3) == Approx(closed));
   CHECK(step_with_gap(0.5) ==
-        Approx(closed * std::sqrt((2.0 * e.bulk + 2.0 / 3.0 * e.shear) / (2.0 * e.shear))));
+        Approx(closed * std::sqrt(wave_modulus(e, false) / (4.0 / 3.0 * e.shear))));
 }
 
 TEST_CASE("Beyond its limit the scheme diverges, below it does not", "[mpm]") {
@@ -207,8 +207,7 @@ TEST_CASE("Every scheme has a stable step for any layout of points", "[mpm]") {
   }
 }
 
-TEST_CASE("With mls a lone point has the same limit wherever it is, and the step is that",
-          "[mpm]") {
+TEST_CASE("With mls a lone point has the same limit wherever it is", "[mpm]") {
   FlowConfig config = unlimited(1.0);
   config.basis = BasisKind::mls;
   config.transfer = GENERATE(Transfer::apic, Transfer::tpic, Transfer::aflip);
@@ -218,7 +217,9 @@ TEST_CASE("With mls a lone point has the same limit wherever it is, and the step
   // Its affine field has the inertia m h^2/4 and the stiffness V (2 K + 2/3 G) of equal stretches.
   const Elasticity e = Elasticity::from_young(1e6, nu);
   const double limit = std::sqrt(1000.0 / (2.0 * e.bulk + 2.0 / 3.0 * e.shear));
-  CHECK(stable_step(Run(p, config).s) == Approx(limit));
+  const double dt = stable_step(Run(p, config).s);
+  CHECK(dt <= limit * (1.0 + 1e-12));
+  CHECK(dt > 0.7 * limit);
   CHECK(growth(config, p, 0.99 * limit) < 10.0);
   CHECK(growth(config, p, 1.02 * limit) > 1e3);
 }
@@ -262,8 +263,10 @@ TEST_CASE("The step is stable for any layout in three dimensions", "[mpm]") {
   }
   // A lone point swings in size with the stiffness 3 K and the inertia m h^2/4.
   const ParticleSet lone = solid_layout(1, 0, nu);
-  const double longer = 1.03 * stable_step(Run3(lone, config).s);
-  if (config.basis == BasisKind::mls) CHECK(growth<Run3>(config, lone, longer) > 1e3);
+  const double limit = std::sqrt(1000.0 / (3.0 * Elasticity::from_young(1e6, nu).bulk));
+  if (config.basis != BasisKind::mls) return;
+  CHECK(growth<Run3>(config, lone, 0.99 * limit) < 10.0);
+  CHECK(growth<Run3>(config, lone, 1.03 * limit) > 1e3);
 }
 
 TEST_CASE("Points that leave nodes behind break hat functions but not splines", "[mpm]") {

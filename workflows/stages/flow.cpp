@@ -12,7 +12,7 @@ namespace {
 struct FlowStage {
   static constexpr std::string_view name = "mpm.run";
   static constexpr std::string_view doc = "The runout, with the material point method.";
-  static constexpr int version = 6;
+  static constexpr int version = 5;
   static constexpr bool checkpoints = true;
   using Config = FlowConfig;
   struct Inputs {
