@@ -8,7 +8,8 @@
 /// `evaluate` gives weights and gradients [1/cell] at the distance d = x - base.
 /// Bounds of the step are per direction [1/cell^2]: `gradient_bound` is the largest
 /// S = sum |grad w|^2 / w, `affine_bound` the largest 2 S - 1/D with D = sum w (x_i - x)^2, what an
-/// affine field fed back makes of it (docs/theory/time-step.md).
+/// affine field fed back makes of it (docs/theory/time-step.md). With `affine_gradient` the
+/// velocity gradient is the affine field of apic.
 namespace flowslide::mpm {
 
 /// Hat functions: cheapest, but points that cross cells make the force jump, and a point close to a
@@ -20,6 +21,7 @@ struct Linear {
   static constexpr double shift = 0.0;
   static constexpr bool constant_moment = false;
   static constexpr double affine_moment = 0.0;
+  static constexpr bool affine_gradient = false;
   /// At 1/16 of a cell from a node. Nearer, the step is not safe for a lone point.
   static constexpr double gradient_bound = 16.0 * 16.0 / 15.0;
   static constexpr double affine_bound = gradient_bound;  ///< the affine field is the gradient
@@ -41,6 +43,7 @@ struct Gimp {
   static constexpr double shift = 0.5;
   static constexpr bool constant_moment = false;
   static constexpr double affine_moment = 0.0;
+  static constexpr bool affine_gradient = false;
   static constexpr double half = 0.25;            ///< half the size of a point [cells]
   static constexpr double gradient_bound = 9.34;  ///< where an outer node loses its overlap
   static constexpr double affine_bound = 13.34;
@@ -69,11 +72,28 @@ struct QuadraticBSpline {
   static constexpr double shift = 0.5;
   static constexpr bool constant_moment = true;
   static constexpr double affine_moment = 0.25;  ///< D, the same at every position
+  static constexpr bool affine_gradient = false;
   static constexpr double gradient_bound = 6.0;
   static constexpr double affine_bound = 8.0;
   template <class T>
   static void evaluate(T d, T* w, T* g) noexcept {
     quadratic_bspline(d, w, g);
+  }
+};
+
+/// The weights of the quadratic B-spline with the gradient of the affine field, w (x_i - x) / D:
+/// that of the linear field that fits the nodes best (moving least squares, Hu et al. 2018). S is
+/// the same at every position, and what bounds the step is half that of the spline's slope.
+struct MovingLeastSquares : QuadraticBSpline {
+  static constexpr BasisKind kind = BasisKind::mls;
+  static constexpr const char* name = "mls";
+  static constexpr bool affine_gradient = true;
+  static constexpr double gradient_bound = 4.0;
+  static constexpr double affine_bound = 4.0;
+  template <class T>
+  static void evaluate(T d, T* w, T* g) noexcept {
+    quadratic_bspline(d, w, g);
+    for (int i = 0; i < nodes; ++i) g[i] = w[i] * (double(i) - d) * (1.0 / affine_moment);
   }
 };
 
@@ -85,6 +105,7 @@ struct CubicBSpline {
   static constexpr double shift = 1.0;
   static constexpr bool constant_moment = true;
   static constexpr double affine_moment = 1.0 / 3.0;
+  static constexpr bool affine_gradient = false;
   static constexpr double gradient_bound = 3.15;
   static constexpr double affine_bound = 3.29;
   template <class T>
@@ -126,6 +147,8 @@ decltype(auto) visit_basis(BasisKind kind, F&& f) {
       return f(Gimp{});
     case BasisKind::quadratic:
       return f(QuadraticBSpline{});
+    case BasisKind::mls:
+      return f(MovingLeastSquares{});
     case BasisKind::cubic:
       break;
   }

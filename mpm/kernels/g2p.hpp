@@ -111,6 +111,7 @@ template <int Dim, class Basis, Transfer kTransfer>
                               (kTransfer == Transfer::apic || kTransfer == Transfer::aflip));
   constexpr bool kMoment =
       !kGradient && (kTransfer == Transfer::apic || kTransfer == Transfer::aflip);
+  constexpr bool kAffine = Basis::affine_gradient;  // one sum for both
   Window<Dim, W> velocity;
   velocity.read(tile, grid.nodes.data(), L::momentum);
   [[maybe_unused]] std::conditional_t<kKeep, Window<Dim, W>, int> change;
@@ -123,7 +124,7 @@ template <int Dim, class Basis, Transfer kTransfer>
     Stencil<Dim, Basis> s;
     evaluate_stencil<Dim, Basis>(p, q, count, grid, inverse, corner, s);
     Pack factor[Dim];  // h / (D h^2)
-    if constexpr (kMoment) {
+    if constexpr (kMoment || kAffine) {
       unroll<Dim>([&](auto e) {
         if constexpr (Basis::constant_moment)
           factor[e] = 1.0 / (Basis::affine_moment * h * h) * h;
@@ -135,13 +136,13 @@ template <int Dim, class Basis, Transfer kTransfer>
       unroll<Dim>([&](auto d) {
         const NodeSums<Dim> sums = sum_nodes<Dim, Basis>(s, fetch, velocity.v[d]);
         unroll<Dim>([&](auto e) {
-          const Pack gradient = sums.gradient[e] * inverse;
+          // sum w v (x_i - x_p) = h (moment + r u)
+          [[maybe_unused]] Pack affine = 0.0;
+          if constexpr (kMoment || kAffine) affine = factor[e] * (sums.moment[e] + s.r[e] * sums.u);
+          const Pack gradient = kAffine ? affine : sums.gradient[e] * inverse;
           store_pack(scratch.gradient[Dim * d + e].data() + (q - tile.first), gradient, count);
           if constexpr (kGradient) store_pack(p.c[Dim * d + e].data() + q, gradient, count);
-          // sum w v (x_i - x_p) = h (moment + r u)
-          if constexpr (kMoment)
-            store_pack(p.c[Dim * d + e].data() + q, factor[e] * (sums.moment[e] + s.r[e] * sums.u),
-                       count);
+          if constexpr (kMoment) store_pack(p.c[Dim * d + e].data() + q, affine, count);
         });
         Pack v = sums.u;
         if constexpr (kKeep) {

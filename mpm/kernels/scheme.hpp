@@ -3,8 +3,8 @@
 /// What a run can choose about its discretisation. docs/theory/mpm.md
 namespace flowslide::mpm {
 
-/// Shape functions; mpm/basis.hpp.
-enum class BasisKind { linear, gimp, quadratic, cubic };
+/// Shape functions; mpm/kernels/basis.hpp.
+enum class BasisKind { linear, gimp, quadratic, cubic, mls };
 
 /// How points get their velocity from the grid.
 /// apic, tpic: the grid's velocity, beside an affine field from its moments or its gradient.

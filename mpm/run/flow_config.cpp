@@ -133,14 +133,17 @@ void Schema<TractionSettings>::describe(FieldVisitor& v, TractionSettings& c) {
 
 /// How points and grid exchange what they carry.
 static void describe_scheme(FieldVisitor& v, FlowConfig& c) {
-  static constexpr std::array<std::string_view, 4> bases{"linear", "gimp", "quadratic", "cubic"};
+  static constexpr std::array<std::string_view, 5> bases{"linear", "gimp", "quadratic", "cubic",
+                                                         "mls"};
   static constexpr std::array<std::string_view, 6> transfers{"apic", "tpic", "aflip",
                                                              "flip", "pic",  "fmpm"};
   static constexpr std::array<std::string_view, 3> updates{"symplectic", "usf", "musl"};
   static constexpr std::array<std::string_view, 2> averages{"auto", "off"};
-  v.choice("basis", c.basis, bases,
-           "shape functions: quadratic and cubic B-splines, gimp for points of half a cell, or "
-           "linear, whose step is not safe for lone points");
+  v.choice(
+      "basis", c.basis, bases,
+      "shape functions: quadratic and cubic B-splines, gimp for points of half a cell, mls for "
+      "the quadratic one with the gradient of the affine field and a longer step, or linear, "
+      "whose step is not safe for lone points");
   v.choice("transfer", c.transfer, transfers,
            "velocity transfer between grid and points: apic and tpic lose sub-grid motion every "
            "step (a viscosity like h^2/dt), aflip at a rate of its own, flip and fmpm by their "

@@ -176,6 +176,7 @@ FLOWSLIDE_PLACE(Linear)
 FLOWSLIDE_PLACE(Gimp)
 FLOWSLIDE_PLACE(QuadraticBSpline)
 FLOWSLIDE_PLACE(CubicBSpline)
+FLOWSLIDE_PLACE(MovingLeastSquares)
 #undef FLOWSLIDE_PLACE
 
 }  // namespace flowslide::mpm

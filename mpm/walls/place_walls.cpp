@@ -263,10 +263,12 @@ FLOWSLIDE_PLACE(2, Linear)
 FLOWSLIDE_PLACE(2, Gimp)
 FLOWSLIDE_PLACE(2, QuadraticBSpline)
 FLOWSLIDE_PLACE(2, CubicBSpline)
+FLOWSLIDE_PLACE(2, MovingLeastSquares)
 FLOWSLIDE_PLACE(3, Linear)
 FLOWSLIDE_PLACE(3, Gimp)
 FLOWSLIDE_PLACE(3, QuadraticBSpline)
 FLOWSLIDE_PLACE(3, CubicBSpline)
+FLOWSLIDE_PLACE(3, MovingLeastSquares)
 #undef FLOWSLIDE_PLACE
 
 }  // namespace flowslide::mpm

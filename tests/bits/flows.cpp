@@ -132,7 +132,8 @@ Lines schemes(int threads) {
   const std::pair<std::string, BasisKind> bases[] = {{"linear", BasisKind::linear},
                                                      {"gimp", BasisKind::gimp},
                                                      {"quadratic", BasisKind::quadratic},
-                                                     {"cubic", BasisKind::cubic}};
+                                                     {"cubic", BasisKind::cubic},
+                                                     {"mls", BasisKind::mls}};
   const std::pair<std::string, Transfer> transfers[] = {
       {"apic", Transfer::apic}, {"tpic", Transfer::tpic}, {"aflip", Transfer::aflip},
       {"flip", Transfer::flip}, {"pic", Transfer::pic},   {"fmpm", Transfer::fmpm}};

@@ -37,7 +37,7 @@ MaterialSpec frictional() {
 }
 
 constexpr std::array kAllBases{BasisKind::linear, BasisKind::gimp, BasisKind::quadratic,
-                               BasisKind::cubic};
+                               BasisKind::cubic, BasisKind::mls};
 BasisKind any_basis() { return GENERATE(from_range(kAllBases.begin(), kAllBases.end())); }
 
 }  // namespace

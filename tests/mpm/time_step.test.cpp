@@ -1,4 +1,5 @@
 #include "tests/mpm/scene.hpp"
+#include "tests/mpm/solid.hpp"
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
@@ -20,7 +21,11 @@ double spline_slope(double t) {
 }
 
 /// 2 / sqrt(lambda_max) of M^-1 K, assembled in full and independently of the product.
-double critical_step(const ParticleSet& p, const Elasticity& e) {
+double critical_step(const ParticleSet& p, const Elasticity& e,
+                     BasisKind basis = BasisKind::quadratic) {
+  const auto slope = [&](double t) {
+    return basis == BasisKind::mls ? -4.0 * t * spline(t) : spline_slope(t);
+  };
   constexpr int n = kSide * kSide;
   Eigen::VectorXd mass = Eigen::VectorXd::Zero(n);
   Eigen::MatrixXd b = Eigen::MatrixXd::Zero(3 * static_cast<int>(p.size()), 2 * n);
@@ -34,7 +39,7 @@ double critical_step(const ParticleSet& p, const Elasticity& e) {
         const double x = p.position[q][0] - i, y = p.position[q][1] - j;
         const int k = i + kSide * j;
         mass[k] += p.mass[q] * spline(x) * spline(y);
-        const double gx = spline_slope(x) * spline(y), gy = spline(x) * spline_slope(y);
+        const double gx = slope(x) * spline(y), gy = spline(x) * slope(y);
         Eigen::Matrix<double, 3, 2> local;
         local << gx, 0, 0, gy, gy, gx;
         b.block<3, 2>(3 * static_cast<int>(q), 2 * k) = std::sqrt(p.volume[q]) * root * local;
@@ -67,6 +72,15 @@ ParticleSet layout(int points, unsigned seed, double nu) {
   return p;
 }
 
+ParticleSet solid_layout(int points, unsigned seed, double nu) {
+  ParticleSet p = layout(points, seed, nu);
+  p.dim = 3;
+  std::mt19937_64 random(seed + 100);
+  std::uniform_real_distribution<double> place(1.5, 4.5);
+  for (auto& x : p.position) x = {place(random), place(random), place(random)};
+  return p;
+}
+
 FlowConfig unlimited(double courant) {
   FlowConfig c = free_space(1.0);
   c.volume_average = VolumeAverage::off;
@@ -75,8 +89,9 @@ FlowConfig unlimited(double courant) {
 }
 
 /// Growth of a small disturbance over 300 steps of `dt`; stops at 1e20.
+template <class AnyRun = Run>
 double growth(const FlowConfig& config, const ParticleSet& p, double dt) {
-  Run run(p, config);
+  AnyRun run(p, config);
   run.s.settings.courant = dt / stable_step(run.s);
   run.s.settings.velocity_limit = run.s.settings.strain_limit = 1e300;
   std::mt19937_64 random(1);
@@ -106,12 +121,15 @@ double growth(Transfer transfer, const ParticleSet& p, double dt) {
 
 TEST_CASE("The time step stays below the limit of any layout of points", "[mpm]") {
   const double nu = GENERATE(0.0, 0.3, 0.49);
+  const BasisKind basis = GENERATE(BasisKind::quadratic, BasisKind::mls);
+  FlowConfig config = unlimited(1.0);
+  config.basis = basis;
   double tightest = 0.0;
   for (unsigned seed = 0; seed < 40; ++seed) {
     const int points = 1 + static_cast<int>(seed % 30);
     const ParticleSet p = layout(points, seed, nu);
-    const Run run(p, unlimited(1.0));
-    const double limit = critical_step(p, run.s.materials[0].elastic);
+    const Run run(p, config);
+    const double limit = critical_step(p, run.s.materials[0].elastic, basis);
     const double dt = stable_step(run.s);
     REQUIRE(dt <= limit * (1.0 + 1e-12));
     tightest = std::max(tightest, dt / limit);
@@ -174,7 +192,7 @@ TEST_CASE("With apic the limit of a lone point is lower by sqrt(S / (2 S - 4))",
 TEST_CASE("Every scheme has a stable step for any layout of points", "[mpm]") {
   // Growth of a rounding-size disturbance over 300 steps: below 100 is drift, not instability.
   FlowConfig config = unlimited(1.0);
-  config.basis = GENERATE(BasisKind::gimp, BasisKind::quadratic, BasisKind::cubic);
+  config.basis = GENERATE(BasisKind::gimp, BasisKind::quadratic, BasisKind::cubic, BasisKind::mls);
   config.transfer = GENERATE(Transfer::apic, Transfer::tpic, Transfer::aflip, Transfer::flip,
                              Transfer::pic, Transfer::fmpm);
   config.update = GENERATE(Update::symplectic, Update::usf, Update::musl);
@@ -182,10 +200,73 @@ TEST_CASE("Every scheme has a stable step for any layout of points", "[mpm]") {
   config.fmpm_order = 4;
   for (unsigned seed = 0; seed < 4; ++seed) {
     const ParticleSet p = layout(1 + static_cast<int>(7 * seed), seed, seed % 2 ? 0.3 : 0.49);
-    const double dt = stable_step(Run(p, config).s);
+    // At the limit itself, where mls has lone points, disturbances grow as the steps do.
+    const double dt = 0.99 * stable_step(Run(p, config).s);
     CAPTURE(int(config.basis), int(config.transfer), int(config.update), seed);
     CHECK(growth(config, p, dt) < 100.0);
   }
+}
+
+TEST_CASE("With mls a lone point has the same limit wherever it is", "[mpm]") {
+  FlowConfig config = unlimited(1.0);
+  config.basis = BasisKind::mls;
+  config.transfer = GENERATE(Transfer::apic, Transfer::tpic, Transfer::aflip);
+  const double at = GENERATE(4.0, 4.2, 4.499), nu = GENERATE(0.0, 0.3, 0.49);
+  ParticleSet p = layout(1, 1, nu);
+  p.position[0] = {at, at, 0.0};
+  // Its affine field has the inertia m h^2/4 and the stiffness V (2 K + 2/3 G) of equal stretches.
+  const Elasticity e = Elasticity::from_young(1e6, nu);
+  const double limit = std::sqrt(1000.0 / (2.0 * e.bulk + 2.0 / 3.0 * e.shear));
+  const double dt = stable_step(Run(p, config).s);
+  CHECK(dt <= limit * (1.0 + 1e-12));
+  CHECK(dt > 0.7 * limit);
+  CHECK(growth(config, p, 0.99 * limit) < 10.0);
+  CHECK(growth(config, p, 1.02 * limit) > 1e3);
+}
+
+TEST_CASE("The step of mls is too long for the slope of the spline", "[mpm]") {
+  FlowConfig config = unlimited(1.0);
+  config.transfer = GENERATE(Transfer::apic, Transfer::aflip);
+  int diverged = 0;
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    const ParticleSet p = layout(1 + static_cast<int>(seed), seed, seed % 2 ? 0.3 : 0.49);
+    config.basis = BasisKind::mls;
+    const double dt = 0.99 * stable_step(Run(p, config).s);
+    CHECK(growth(config, p, dt) < 10.0);
+    config.basis = BasisKind::quadratic;
+    diverged += growth(config, p, dt) > 1e10;
+  }
+  CHECK(diverged >= 6);  // where soil is dense either is stable
+}
+
+TEST_CASE("Averages over cells need no shorter step", "[mpm]") {
+  FlowConfig config = unlimited(1.0);
+  config.volume_average = VolumeAverage::automatic;
+  config.basis = GENERATE(BasisKind::quadratic, BasisKind::mls);
+  config.transfer = GENERATE(Transfer::apic, Transfer::aflip);
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    const ParticleSet p = layout(2 + static_cast<int>(5 * seed), seed, seed % 2 ? 0.42 : 0.49);
+    const Run run(p, config);
+    REQUIRE(run.s.averages(0));
+    CHECK(growth(config, p, 0.99 * stable_step(run.s)) < 10.0);
+  }
+}
+
+TEST_CASE("The step is stable for any layout in three dimensions", "[mpm]") {
+  FlowConfig config = unlimited(1.0);
+  config.basis = GENERATE(BasisKind::quadratic, BasisKind::mls);
+  config.transfer = GENERATE(Transfer::apic, Transfer::aflip);
+  const double nu = GENERATE(0.0, 0.3, 0.49);
+  for (unsigned seed = 0; seed < 4; ++seed) {
+    const ParticleSet p = solid_layout(1 + static_cast<int>(8 * seed), seed, nu);
+    CHECK(growth<Run3>(config, p, 0.99 * stable_step(Run3(p, config).s)) < 10.0);
+  }
+  // A lone point swings in size with the stiffness 3 K and the inertia m h^2/4.
+  const ParticleSet lone = solid_layout(1, 0, nu);
+  const double limit = std::sqrt(1000.0 / (3.0 * Elasticity::from_young(1e6, nu).bulk));
+  if (config.basis != BasisKind::mls) return;
+  CHECK(growth<Run3>(config, lone, 0.99 * limit) < 10.0);
+  CHECK(growth<Run3>(config, lone, 1.03 * limit) > 1e3);
 }
 
 TEST_CASE("Points that leave nodes behind break hat functions but not splines", "[mpm]") {
@@ -205,4 +286,5 @@ TEST_CASE("Points that leave nodes behind break hat functions but not splines", 
   CHECK_FALSE(grows(BasisKind::quadratic, Update::symplectic));
   CHECK_FALSE(grows(BasisKind::gimp, Update::symplectic));
   CHECK_FALSE(grows(BasisKind::cubic, Update::symplectic));
+  CHECK_FALSE(grows(BasisKind::mls, Update::symplectic));
 }
