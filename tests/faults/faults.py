@@ -187,7 +187,8 @@ class Worker:
         if code == 0 and (wrong := tree.differences(now, whole)):
             problems.append(f"ends with 0, but {wrong[0]}")
         if code not in scene.codes:  # a study of which a row failed is complete, but another one
-            problems += [f"leaves: {w}" for w in tree.incomplete(self.root, now, start, whole)[:2]]
+            wrong = tree.incomplete(self.root, now, start, whole, bool(scene.codes))
+            problems += [f"leaves: {w}" for w in wrong[:2]]
         code, *_ = self.program.run(self.root, command)
         if code != 0:
             problems.append(f"again: ends with {code}: {self.said().strip().splitlines()[-1:]}")

@@ -9,6 +9,8 @@ TIMES = {"seconds", "modified_ns", "wall_s", "wall", "cached", "why", "fem_secon
          "flow_point_updates_per_s", "peak_memory_bytes"}
 # Written anew in every run, so it may tell of an unfinished one.
 ALWAYS = {"run.lock", ".flowslide.lock"}
+# What a study tells of its rows and stages, failed ones too, written anew in every run.
+SUMMARY = {"table.csv", "table.h5", "columns.csv", "analysis.json", "study.html"}
 
 
 def without_times(value):
@@ -59,13 +61,21 @@ def snapshot(root, folders=("out", "made")):
     return seen
 
 
-def incomplete(root, now, start, whole):
-    """Names under which something lies that is neither what was there nor the whole of the result."""
+def is_summary(path):
+    name = os.path.basename(path)
+    return name in SUMMARY or name.endswith(".failed.json") or "figures" in path.split("/")
+
+
+def incomplete(root, now, start, whole, rows_fail=False):
+    """Names under which something lies that is neither what was there nor the whole of the result.
+    With `rows_fail`, but for the summary of a study, which may tell of a failed row."""
     wrong = []
     for key, found in now.items():
         name = os.path.basename(key)
         # The session file goes after its result has its name; the record does not list it.
         if is_temporary(key) or found == "folder" or name == "session.json":
+            continue
+        if rows_fail and is_summary(key):
             continue
         if name in ALWAYS:
             if name == "run.lock" and not parses(f"{root}/{key}"):
