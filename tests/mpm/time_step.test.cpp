@@ -229,7 +229,7 @@ TEST_CASE("The step of mls is too long for the slope of the spline", "[mpm]") {
   config.transfer = GENERATE(Transfer::apic, Transfer::aflip);
   int diverged = 0;
   for (unsigned seed = 0; seed < 12; ++seed) {
-    const ParticleSet p = layout(1 + static_cast<int>(seed), seed, seed % 2 ? 0.3 : 0.49);
+    const ParticleSet p = layout(1 + static_cast<int>(seed) / 3, seed, 0.49);
     config.basis = BasisKind::mls;
     const double dt = 0.99 * stable_step(Run(p, config).s);
     CHECK(growth(config, p, dt) < 10.0);
