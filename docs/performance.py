@@ -4,16 +4,14 @@
     flowslide study run docs/performance-dam.yaml --out DIR && cp DIR/table.csv docs/performance-dam.csv
     python3 docs/performance.py
 
-Run it on the machine that measured. Needs Matplotlib. Text outside the marked tables is left alone,
-and so are tables of what was not measured.
+Needs Matplotlib. Text outside the marked tables is left alone,
+the line on machines among it, and so are tables of what was not measured.
 """
 import csv
 import json
-import os
 import pathlib
 import re
 import statistics
-import subprocess
 
 import matplotlib
 
@@ -61,31 +59,25 @@ def mean_and_scatter(values, digits=1):
 
 def static_table(rows):
     lines = [
-        "| cell, m | `c_soft_ratio` | points | runout, m | without 0.5 % of the mass, m "
+        "| cell, m | `c_soft_ratio` | runs | points | runout, m | without 0.5 % of the mass, m "
         "| beyond the toe, t/m | at rest after, s | largest energy error |",
-        "|---|---|---|---|---|---|---|---|",
+        "|---|---|---|---|---|---|---|---|---|",
     ]
     groups = {}
     for row in rows:
-        groups.setdefault((row["cell"], row["c_soft"]), []).append(row)
+        if row["state"] == "done":
+            groups.setdefault((row["cell [m]"], row["c_soft"]), []).append(row)
     for (cell, ratio), repeats in groups.items():
         column = lambda name: [row[name] for row in repeats]
         tonnes = [float(v) / 1000 for v in column("mass_past_toe_kg_per_m")]
         lines.append(
-            f"| {cell} | {float(ratio):g} | {int(float(repeats[0]['particles'])):,} "
+            f"| {float(cell):g} | {float(ratio):g} | {len(repeats)} | {int(float(repeats[0]['particles'])):,} "
             f"| {mean_and_scatter(column('runout_m'))} "
             f"| {mean_and_scatter(column('runout_mass_quantile_m'))} "
-            f"| {mean_and_scatter(tonnes, 0)} | {mean_and_scatter(column('rest_time_s'), 0)} "
+            f"| {mean_and_scatter(tonnes, 0)} | {mean_and_scatter(column('time_at_rest_s'), 0)} "
             f"| {max(map(float, column('energy_error'))):.0e} |"
         )
     return "\n".join(lines)
-
-
-def machine():
-    text = pathlib.Path("/proc/cpuinfo").read_text()
-    name = re.search(r"model name\s*: (.*)", text).group(1)
-    wide = "AVX-512" if " avx512f " in text else "AVX2" if " avx2 " in text else "SSE"
-    return f"{os.cpu_count()} cores of {name} ({wide}), shared with other guests"
 
 
 def valley_table(rows):
@@ -233,15 +225,9 @@ def main():
         if m["name"].startswith("mpm/curve/"):
             _, _, basis, transfer, _ = m["name"].split("/")
             curves.setdefault(f"{basis}/{transfer}", []).append(m)
-    commit = subprocess.run(
-        ["git", "-C", str(DOCS), "describe", "--always"], capture_output=True, text=True
-    ).stdout.strip()
     page = DOCS / "performance.md"
     text = page.read_text()
     if speed:
-        build = speed[0]
-        facts = f"Compiler g++ {build['compiler']}, flags `{build['flags'].strip()}`, commit {commit}."
-        text = replace(text, "machine", f"{machine()}. {facts}")
         text = replace(text, "speed", speed_table(speed))
     dam = DOCS / "performance-dam.csv"
     if dam.exists():
