@@ -2,6 +2,7 @@
 
 #include "core/check.hpp"
 #include "core/files.hpp"
+#include "core/xml_text.hpp"
 #include "model/vtk_data.hpp"
 
 #include <array>
@@ -163,17 +164,8 @@ void write_pvd(const std::filesystem::path& path,
       "  <Collection>\n";
   const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
   for (const auto& [time, file] : files) {
-    std::string name;
-    for (char c : std::filesystem::absolute(file).lexically_relative(folder).generic_string()) {
-      if (c == '&')
-        name += "&amp;";
-      else if (c == '<')
-        name += "&lt;";
-      else if (c == '"')
-        name += "&quot;";
-      else
-        name += c;
-    }
+    const std::string name =
+        xml_text(std::filesystem::absolute(file).lexically_relative(folder).generic_string());
     text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", time, name);
   }
   write_file(path, text + "  </Collection>\n</VTKFile>\n");

@@ -1,3 +1,4 @@
+#include "core/xml_text.hpp"
 #include "model/vtk_data.hpp"
 
 #include <algorithm>
@@ -15,21 +16,6 @@ static_assert(std::endian::native == std::endian::little, "the files say that th
 
 constexpr std::size_t kBlock = 1 << 15;  // bytes compressed at a time, as VTK has it
 constexpr int kLevel = 5;                // of zlib's 9, as VTK has it
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += c;
-  }
-  return result;
-}
 
 void add_number(std::string& to, std::uint64_t number) {
   to.append(reinterpret_cast<const char*>(&number), sizeof number);
@@ -110,7 +96,7 @@ class Writer {
 
   void element(std::string_view type, std::string_view name, std::string_view attributes) {
     line(fmt::format("<DataArray type=\"{}\" Name=\"{}\" {} format=\"appended\" offset=\"{}\"/>",
-                     type, escaped(name), attributes, data_.size()));
+                     type, xml_text(name), attributes, data_.size()));
   }
 };
 

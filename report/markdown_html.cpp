@@ -1,5 +1,7 @@
 #include "report/markdown_html.hpp"
 
+#include "core/xml_text.hpp"
+
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -24,7 +26,7 @@ std::string paired(std::string text, std::string_view mark, std::string_view tag
 }
 
 std::string inline_html(std::string_view text) {
-  return paired(paired(html_text(text), "`", "code"), "**", "strong");
+  return paired(paired(xml_text(text), "`", "code"), "**", "strong");
 }
 
 /// Cells of "| a | b\| c |".
@@ -75,32 +77,6 @@ std::vector<std::string_view> lines_of(std::string_view text) {
 }
 
 }  // namespace
-
-std::string html_text(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 0x20 && c != '\n' ? ' ' : c;
-    }
-  }
-  return out;
-}
 
 std::string markdown_html(std::string_view markdown) {
   const std::vector<std::string_view> lines = lines_of(markdown);

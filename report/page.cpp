@@ -1,6 +1,7 @@
 #include "report/page.hpp"
 
 #include "core/hash.hpp"
+#include "core/xml_text.hpp"
 #include "page_bundle.hpp"
 #include "report/audit_table.hpp"
 #include "report/markdown.hpp"
@@ -46,8 +47,7 @@ std::string anchor(std::string_view title) {
 
 std::string section(std::string_view title, const std::string& html, std::string_view kind = "") {
   return fmt::format("<section id=\"{0}\"{2}><h2>{1}</h2>\n{3}</section>\n", anchor(title),
-                     html_text(title), kind.empty() ? "" : fmt::format(" class=\"{}\"", kind),
-                     html);
+                     xml_text(title), kind.empty() ? "" : fmt::format(" class=\"{}\"", kind), html);
 }
 
 std::string head(const ReportConfig& config) {
@@ -58,7 +58,7 @@ std::string head(const ReportConfig& config) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n"
       "<title>{}</title>\n<style>{}</style>\n</head>\n",
-      policy_hash(kPageScript), policy_hash(kPageStyle), html_text(config.title), kPageStyle);
+      policy_hash(kPageScript), policy_hash(kPageStyle), xml_text(config.title), kPageStyle);
 }
 
 struct Card {
@@ -93,7 +93,7 @@ std::string cards(const ReportInputs& in, const ReportFacts& f) {
         "<div class=\"card\"><span class=\"name\">{}</span><span class=\"value\">{}<small> "
         "{}</small>"
         "</span><span class=\"note\">{}</span></div>",
-        html_text(c.name), html_text(c.value), html_text(c.unit), html_text(c.note));
+        xml_text(c.name), xml_text(c.value), xml_text(c.unit), xml_text(c.note));
   return out + "</div>\n";
 }
 
@@ -105,9 +105,9 @@ std::string warnings_html(const std::vector<std::string>& warnings) {
 }
 
 std::string meta_line(const ReportInputs& in) {
-  std::string out = html_text(in.date);
+  std::string out = xml_text(in.date);
   for (const auto& [name, value] : in.provenance)
-    if (name == "program") out += (out.empty() ? "" : " &middot; ") + html_text(value);
+    if (name == "program") out += (out.empty() ? "" : " &middot; ") + xml_text(value);
   return "<p class=\"meta\">" + out + "</p>\n";
 }
 
@@ -127,7 +127,7 @@ std::string navigation(const std::vector<ReportSection>& sections, bool settings
       "<nav><a href=\"#the-flow\">The flow</a><a href=\"#before-the-flow\">Section</a>"
       "<a href=\"#histories\">Histories</a>";
   for (const ReportSection& s : sections)
-    out += fmt::format("<a href=\"#{}\">{}</a>", anchor(s.title), html_text(s.title));
+    out += fmt::format("<a href=\"#{}\">{}</a>", anchor(s.title), xml_text(s.title));
   if (settings) out += "<a href=\"#every-setting\">Every setting</a>";
   return out + "<span id=\"tools\"></span></nav>\n";
 }
@@ -136,7 +136,7 @@ std::string settings_html(const std::vector<ToldStage>& stages) {
   std::string out;
   for (const ToldStage& stage : stages)
     out += fmt::format("<details><summary>{} <code>{}</code></summary>\n{}</details>\n",
-                       html_text(stage.name), html_text(stage.uses),
+                       xml_text(stage.name), xml_text(stage.uses),
                        markdown_html(told_settings(stage)));
   return section("Every setting", out);
 }
@@ -148,7 +148,7 @@ std::string report_page(const ReportInputs& in, const ReportConfig& config,
   const PageData data = page_data(in, config, facts, end);
   const std::vector<ReportSection> sections = report_sections(in, config, facts, end);
   std::string out = head(config) + "<body>\n<a class=\"skip\" href=\"#the-flow\">To the flow</a>\n";
-  out += "<header><h1>" + html_text(config.title) + "</h1>\n" + meta_line(in) +
+  out += "<header><h1>" + xml_text(config.title) + "</h1>\n" + meta_line(in) +
          "<div class=\"lead\">" + markdown_html(report_summary(facts, config)) + "</div>\n" +
          cards(in, facts) + "</header>\n";
   out += navigation(sections, !in.stages.empty());

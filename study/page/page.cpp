@@ -1,5 +1,6 @@
 #include "study/page/page.hpp"
 
+#include "core/xml_text.hpp"
 #include "study/page/chart.hpp"
 #include "study/statistics/summary.hpp"
 #include "workflows/engine/program_version.hpp"
@@ -75,8 +76,8 @@ class Writer {
         "<!doctype html><html lang='en'><head><meta charset='utf-8'><meta name='viewport' "
         "content='width=device-width,initial-scale=1'><title>{0}</title><style>{1}</style></head>"
         "<body><h1>{0}</h1>",
-        escaped(plan_.name), kStyle);
-    if (!plan_.description.empty()) html_ += fmt::format("<p>{}</p>", escaped(plan_.description));
+        xml_text(plan_.name), kStyle);
+    if (!plan_.description.empty()) html_ += fmt::format("<p>{}</p>", xml_text(plan_.description));
     std::size_t failed = 0, open = 0;
     for (const std::string& s : table_.find("state")->text) {
       failed += s == "failed";
@@ -85,7 +86,7 @@ class Writer {
     html_ += fmt::format("<p class='soft'>{} rows", plan_.rows.size());
     if (failed > 0) html_ += fmt::format(", <span class='failed'>{} failed</span>", failed);
     if (open > 0) html_ += fmt::format(", {} still to be computed", open);
-    html_ += fmt::format(". Written by {}.</p>", escaped(program_version()));
+    html_ += fmt::format(". Written by {}.</p>", xml_text(program_version()));
   }
 
   void answer() {
@@ -99,7 +100,7 @@ class Writer {
       html_ += fmt::format(
           "<tr><td class='word'>{}</td><td>{}</td><td>{} to {}</td><td>&plusmn; {}</td>"
           "<td>{}</td><td>{}</td></tr>",
-          escaped(readable(table_, f_.results[i])), short_number(weighted_quantile(v, 0.5)),
+          xml_text(readable(table_, f_.results[i])), short_number(weighted_quantile(v, 0.5)),
           short_number(weighted_quantile(v, 0.05)), short_number(weighted_quantile(v, 0.95)),
           short_number(s.of_inputs),
           is_set(s.numerical) ? "&plusmn; " + short_number(s.numerical) : "not repeated",
@@ -115,7 +116,7 @@ class Writer {
 
   void threshold(const Threshold& t) {
     if (!is_set(t.ramp.breach.value)) return;
-    const std::string x = escaped(readable(table_, t.x)), y = escaped(readable(table_, t.y));
+    const std::string x = xml_text(readable(table_, t.x)), y = xml_text(readable(table_, t.y));
     const bool begins = t.ramp.no_breach <= kMostWithout,
                ends = t.ramp.no_saturation <= kMostWithout;
     html_ += fmt::format("<li>{} against {}: ", y, x);
@@ -143,7 +144,7 @@ class Writer {
   void add_figure(const std::string& file, const Svg& svg, const std::string& caption) {
     page_.figures[file + ".svg"] = svg.alone(caption);
     html_ += fmt::format("<figure>{}<figcaption>{}</figcaption></figure>", svg.inside_page(caption),
-                         escaped(caption));
+                         xml_text(caption));
   }
 
   void scatter_figure(const Relation& r, std::size_t result) {
@@ -186,7 +187,7 @@ class Writer {
     for (std::size_t i = 0; i < f_.results.size(); ++i) {
       const std::string& result = f_.results[i];
       const std::string label = readable(table_, result);
-      html_ += fmt::format("<h2>{}</h2><div class='figures'>", escaped(label));
+      html_ += fmt::format("<h2>{}</h2><div class='figures'>", xml_text(label));
       std::vector<Swing> swings;
       for (const Swing& s : f_.swings)
         if (s.result == result) swings.push_back(s);
@@ -214,7 +215,7 @@ class Writer {
       html_ += fmt::format(
           "<tr><td class='word'>{}</td><td class='word'>{}</td><td>{}</td>"
           "<td>{}</td><td>{}</td><td>{}</td></tr>",
-          escaped(readable(table_, r.y)), escaped(readable(table_, r.x)), interval(r.spearman),
+          xml_text(readable(table_, r.y)), xml_text(readable(table_, r.x)), interval(r.spearman),
           interval(r.line.slope), short_number(r.line.r2), r.spearman.rows);
     html_ +=
         "</table></div><p class='soft'>In brackets: 95 % interval, from resampling the rows."
@@ -230,14 +231,14 @@ class Writer {
       html_ += fmt::format(
           "<tr><td class='word'>{}</td><td class='word'>{} / {}</td>"
           "<td class='word'>{}</td><td>{}</td></tr>",
-          escaped(readable(table_, c.result)), escaped(f_.variant), escaped(c.variant),
-          escaped(c.where.empty() ? "all" : c.where), interval(c.ratio));
+          xml_text(readable(table_, c.result)), xml_text(f_.variant), xml_text(c.variant),
+          xml_text(c.where.empty() ? "all" : c.where), interval(c.ratio));
     for (const NotCompared& n : f_.not_compared)
       html_ += fmt::format(
           "<tr><td class='word'>{}</td><td class='word'>{} / {}</td>"
           "<td class='word' colspan='2'>not compared: {}</td></tr>",
-          escaped(readable(table_, n.result)), escaped(f_.variant), escaped(n.variant),
-          escaped(n.why));
+          xml_text(readable(table_, n.result)), xml_text(f_.variant), xml_text(n.variant),
+          xml_text(n.why));
     html_ += "</table></div>";
   }
 
@@ -253,7 +254,7 @@ class Writer {
     }
     for (const Column* c : columns)
       html_ += fmt::format("<th{}>{}</th>", c->is_number ? "" : " class='word'",
-                           escaped(readable(table_, c->name)));
+                           xml_text(readable(table_, c->name)));
     html_ += "</tr>";
     for (std::size_t r = 0; r < table_.rows; ++r) {
       html_ += "<tr>";
@@ -264,7 +265,7 @@ class Writer {
             failed         ? " class='word failed'"
             : c->is_number ? ""
                            : " class='word'",
-            escaped(is_set(c->number[r]) ? fmt::format("{:.4g}", c->number[r]) : c->text[r]));
+            xml_text(is_set(c->number[r]) ? fmt::format("{:.4g}", c->number[r]) : c->text[r]));
       }
       html_ += "</tr>";
     }
@@ -278,7 +279,7 @@ class Writer {
         "<h2>How it was computed</h2><p class='soft'>{} stages, each once for all rows that share "
         "it. Study file: {}. How the statistics are defined: docs/theory/study-statistics.md."
         "</p></body></html>\n",
-        plan_.nodes.size(), escaped(plan_.file.filename().string()));
+        plan_.nodes.size(), xml_text(plan_.file.filename().string()));
   }
 
   const Plan& plan_;

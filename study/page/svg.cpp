@@ -1,5 +1,7 @@
 #include "study/page/svg.hpp"
 
+#include "core/xml_text.hpp"
+
 #include <fmt/format.h>
 
 namespace flowslide::study {
@@ -15,32 +17,6 @@ constexpr std::string_view kStyle =
 
 }  // namespace
 
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
-
 std::string pixels(double value) { return fmt::format("{:.1f}", value); }
 
 void Svg::line(double x1, double y1, double x2, double y2, std::string_view kind) {
@@ -50,14 +26,14 @@ void Svg::line(double x1, double y1, double x2, double y2, std::string_view kind
 
 void Svg::circle(double x, double y, double radius, std::string_view kind, std::string_view title) {
   body_ += fmt::format("<circle cx='{}' cy='{}' r='{}' class='{}'><title>{}</title></circle>",
-                       pixels(x), pixels(y), pixels(radius), kind, escaped(title));
+                       pixels(x), pixels(y), pixels(radius), kind, xml_text(title));
 }
 
 void Svg::rectangle(double x, double y, double width, double height, std::string_view kind,
                     std::string_view title) {
   body_ +=
       fmt::format("<rect x='{}' y='{}' width='{}' height='{}' class='{}'><title>{}</title></rect>",
-                  pixels(x), pixels(y), pixels(width), pixels(height), kind, escaped(title));
+                  pixels(x), pixels(y), pixels(width), pixels(height), kind, xml_text(title));
 }
 
 void Svg::polyline(const std::string& points, std::string_view kind) {
@@ -73,19 +49,19 @@ void Svg::text(double x, double y, std::string_view text, std::string_view ancho
   const std::string turn =
       turned ? fmt::format(" transform='rotate(-90 {} {})'", pixels(x), pixels(y)) : "";
   body_ += fmt::format("<text x='{}' y='{}' text-anchor='{}' class='{}'{}>{}</text>", pixels(x),
-                       pixels(y), anchor, kind, turn, escaped(text));
+                       pixels(y), anchor, kind, turn, xml_text(text));
 }
 
 std::string Svg::inside_page(std::string_view title) const {
   return fmt::format("<svg viewBox='0 0 {} {}' role='img' aria-label='{}'>{}</svg>", pixels(width_),
-                     pixels(height_), escaped(title), body_);
+                     pixels(height_), xml_text(title), body_);
 }
 
 std::string Svg::alone(std::string_view title) const {
   return fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' width='{0}' height='{1}' viewBox='0 0 {0} {1}' "
       "role='img' aria-label='{2}'>{3}{4}</svg>\n",
-      pixels(width_), pixels(height_), escaped(title), kStyle, body_);
+      pixels(width_), pixels(height_), xml_text(title), kStyle, body_);
 }
 
 }  // namespace flowslide::study

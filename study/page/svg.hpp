@@ -31,9 +31,6 @@ class Svg {
   std::string body_;
 };
 
-/// &, <, > and quotes as entities.
-std::string escaped(std::string_view text);
-
 /// "12.5": at most a tenth of a pixel counts.
 std::string pixels(double value);
 
