@@ -166,7 +166,8 @@ def curve_table(lines_of):
     for name, line in lines_of.items():
         by_cell = {p["cell_m"]: p for p in line}
         entries = [
-            f"{by_cell[c]['value']:.2g} / {by_cell[c]['core_seconds']:.2g} s" for c in cells
+            f"{by_cell[c]['value']:.2g} / {by_cell[c]['core_seconds']:.2g} s" if c in by_cell else "fails"
+            for c in cells
         ]
         rows.append(f"| {name} | " + " | ".join(entries) + " |")
     return "\n".join(rows)

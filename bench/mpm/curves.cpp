@@ -1,10 +1,13 @@
 #include "bench/mpm/bandwidth.hpp"
 #include "bench/mpm/speed.hpp"
+#include "core/check.hpp"
 #include "core/conventions.hpp"
 #include "core/elementary.hpp"
 #include "mpm/run/load.hpp"
 
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace flowslide::mpm {
 namespace {
@@ -45,9 +48,9 @@ struct Line {
   Transfer transfer;
 };
 
-/// After one period the velocity is that of the start.
-Measurement point_of_line(BasisKind basis, std::string_view basis_name, const Line& line,
-                          double cell) {
+/// After one period the velocity is that of the start. Nothing where the numerics fail before.
+std::optional<Measurement> point_of_line(BasisKind basis, std::string_view basis_name,
+                                         const Line& line, double cell) {
   const ParticleSet p = bar(0.5 * cell);
   FlowConfig c;
   c.cell = cell;
@@ -63,13 +66,17 @@ Measurement point_of_line(BasisKind basis, std::string_view basis_name, const Li
   prepare(s, scratch, true);
   const double start = thread_seconds();
   const double end = Bar::period();
-  while (s.time < end && std::isfinite(s.last.max_speed2)) {
-    // The last step ends at the period.
-    const double left = end - s.time, dt = stable_step(s);
-    s.settings.courant = c.courant * std::min(1.0, left / dt);
-    advance(s, scratch);
-    s.settings.courant = c.courant;
-    if (left < 1e-9 * end) break;
+  try {
+    while (s.time < end) {
+      // The last step ends at the period.
+      const double left = end - s.time, dt = stable_step(s);
+      s.settings.courant = c.courant * std::min(1.0, left / dt);
+      advance(s, scratch);
+      s.settings.courant = c.courant;
+      if (left < 1e-9 * end) break;
+    }
+  } catch (const NumericsError&) {
+    return {};
   }
   Measurement m;
   m.numbers["core_seconds"] = thread_seconds() - start;
@@ -99,13 +106,13 @@ std::vector<Measurement> work_precision() {
                             {"aflip", Transfer::aflip}, {"flip_0.99", Transfer::flip},
                             {"pic", Transfer::pic},     {"fmpm_2", Transfer::fmpm}};
   std::vector<Measurement> all;
-  for (const BasisKind basis :
-       {BasisKind::linear, BasisKind::gimp, BasisKind::quadratic, BasisKind::cubic}) {
+  for (const BasisKind basis : {BasisKind::linear, BasisKind::gimp, BasisKind::quadratic,
+                                BasisKind::mls, BasisKind::cubic}) {
     const std::string_view name =
         visit_basis(basis, []<class B>(B) { return std::string_view(B::name); });
     for (const Line& line : lines)
       for (const double cell : {1.0, 0.5, 0.25, 0.125})
-        all.push_back(point_of_line(basis, name, line, cell));
+        if (auto point = point_of_line(basis, name, line, cell)) all.push_back(*std::move(point));
   }
   return all;
 }

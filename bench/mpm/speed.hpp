@@ -14,7 +14,7 @@ std::vector<Measurement> measure_linear();
 std::vector<Measurement> measure_valley();
 
 /// Error against processor time: a moving, swinging bar, four cell sizes for each line of
-/// basis and transfer.
+/// basis and transfer. Lines that go unstable have no row for the cells where they do.
 std::vector<Measurement> work_precision();
 
 /// Error of a dry column's front against processor time, for each transfer of velocity.
