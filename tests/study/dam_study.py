@@ -30,7 +30,8 @@ study:
     stages.mesh.with.size_along_x: [[-340 m, 25 m], [-110 m, 6 m], [87.5 m, 6 m]]
     stages.flow.with.cell: 5 m
     stages.flow.with.end: 20 s
-    stages.map.with.audit: {out_of_balance_rms: 1, out_of_balance_max: 10}
+    # so coarse a grid of the flow cannot carry all of the energy
+    stages.map.with.audit: {kinetic_energy: 0.05}
     stages.report.with.figures: false
     stages.report.with.paraview: false
   vary:
