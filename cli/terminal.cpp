@@ -163,11 +163,16 @@ void Display::plan(std::string_view stage, const Decision& decision) const {
                                     });
     why += fmt::format(", {} warning{}{}", n, n == 1 ? "" : "s", follow ? ":" : " (above)");
   }
+  std::string cost;
   if (is_set(decision.expected.seconds))
-    why += fmt::format(", about {}", about_seconds(decision.expected.seconds));
-  if (is_set(decision.expected.memory))
-    why += fmt::format(", {}", about_bytes(decision.expected.memory));
-  fmt::print("{}\n", cut_to(fmt::format("{:<{}} {}{}", stage, kNameWidth, verb, why), columns_));
+    cost += ", about " + about_seconds(decision.expected.seconds);
+  if (is_set(decision.expected.memory)) cost += ", " + about_bytes(decision.expected.memory);
+  // Of a long reason the end goes, not what it takes; a narrow terminal has room for the reason
+  // only.
+  constexpr std::size_t kLeast = 50;
+  if (cost.size() + kLeast > columns_) cost.clear();
+  const std::string line = fmt::format("{:<{}} {}{}", stage, kNameWidth, verb, why);
+  fmt::print("{}{}\n", cut_to(line, columns_ - cost.size()), cost);
 }
 
 void Display::progress(std::string_view stage, Share share, std::string_view text) {
