@@ -51,7 +51,7 @@ void check_redo(const RunArguments& args, const Workflow& workflow) {
   }
 }
 
-void print_result(const fs::path& folder, std::size_t warnings) {
+void print_result(const fs::path& folder, std::size_t warnings, const Expectation& time) {
   const SealedJson file = read_sealed(folder / kResultFile);
   if (!file.json)
     throw FileError(
@@ -65,8 +65,29 @@ void print_result(const fs::path& folder, std::size_t warnings) {
     fmt::print("{:<{}} {:.4g}{}{}{}\n", h.text, label, value->get<double>(),
                h.unit.empty() ? "" : " ", h.unit, h.note.empty() ? "" : " (" + h.note + ")");
   }
+  if (time.expected > 0.0)
+    fmt::print("{:<{}} {}, {} expected ({:+.0f} %)\n", "computing time", label,
+               about_seconds(time.taken), about_seconds(time.expected),
+               100.0 * (time.taken / time.expected - 1.0));
   if (warnings > 0) fmt::print("{:<{}} {}, see above\n", "warnings before use", label, warnings);
   fmt::print("{:<{}} {}\n", "result", label, (folder / kResultFile).string());
+}
+
+/// What is up to date is left out.
+int dry_run(const Workflow& workflow, const fs::path& folder, const CostBook& costs, int threads,
+            Display& display) {
+  Expectation all;
+  for (const PlanLine& line : plan_workflow(workflow, folder, &costs, threads)) {
+    for (const std::string& problem : line.decision.problems)
+      display.notice(fmt::format("{}: {}", line.stage, problem));
+    display.plan(line.stage, line.decision);
+    if (line.decision.action != Action::reuse) all.add(line.decision.expected);
+  }
+  if (all.expected > 0.0)
+    fmt::print("expected: about {} with {} thread{}, {}{}\n", about_seconds(all.expected), threads,
+               threads == 1 ? "" : "s", about_bytes(all.memory),
+               all.unknown > 0 ? ", and what nothing is known of" : "");
+  return 0;
 }
 
 int run(const RunArguments& args) {
@@ -78,26 +99,22 @@ int run(const RunArguments& args) {
   Display display(::isatty(STDOUT_FILENO) == 1);
   for (const WorkflowStage& stage : workflow.stages)
     display.events().warned(stage.name, stage.warnings);
-  if (args.dry_run) {
-    for (const PlanLine& line : plan_workflow(workflow, folder)) {
-      for (const std::string& problem : line.decision.problems)
-        display.notice(fmt::format("{}: {}", line.stage, problem));
-      display.plan(line.stage, line.decision);
-    }
-    return 0;
-  }
+  CostBook costs(usual_cost_file());
+  if (args.dry_run) return dry_run(workflow, folder, costs, threads_for(args.threads), display);
   const RunOptions options{.folder = folder,
                            .threads = threads_for(args.threads),
                            .stop_requested = &stop_on_signal(),
                            .redo = args.redo,
-                           .allowed_programs = args.allowed_programs};
+                           .allowed_programs = args.allowed_programs,
+                           .costs = &costs};
   try {
     run_workflow(workflow, options, display.events());
   } catch (...) {
     display.close();
     throw;
   }
-  print_result(folder, display.num_warnings());
+  costs.keep();
+  print_result(folder, display.num_warnings(), display.expectation());
   return 0;
 }
 
@@ -112,7 +129,8 @@ int report(const std::string& folder, const std::vector<std::string>& allowed_pr
                      .threads = processors(),
                      .stop_requested = &stop_on_signal(),
                      .redo = {},
-                     .allowed_programs = allowed_programs};
+                     .allowed_programs = allowed_programs,
+                     .costs = nullptr};
   for (const PlanLine& line : plan_workflow(workflow, folder)) {
     const auto stage = std::find_if(workflow.stages.begin(), workflow.stages.end(),
                                     [&](const WorkflowStage& s) { return s.name == line.stage; });
@@ -131,7 +149,7 @@ int report(const std::string& folder, const std::vector<std::string>& allowed_pr
                     lock->file));
   Display display(::isatty(STDOUT_FILENO) == 1);
   run_workflow(workflow, options, display.events());
-  print_result(folder, display.num_warnings());
+  print_result(folder, display.num_warnings(), display.expectation());
   return 0;
 }
 

@@ -9,6 +9,7 @@
 #include "study/run/clean.hpp"
 #include "study/run/pool.hpp"
 #include "study/run/session_record.hpp"
+#include "workflows/engine/cost_book.hpp"
 #include "workflows/engine/lock.hpp"
 #include "workflows/engine/program_version.hpp"
 #include "workflows/stages/stage_list.hpp"
@@ -80,6 +81,7 @@ study::PoolOptions pool_options(const StudyArguments& args) {
   options.memory = kShare * available_memory();
   options.retry = args.retry;
   options.allowed_programs = args.allowed_programs;
+  options.costs = usual_cost_file();
   options.stop_requested = &stop_on_signal();
   options.body = become_stage;
   return options;

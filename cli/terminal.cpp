@@ -108,10 +108,32 @@ std::string clock_text(double seconds) {
                    : fmt::format("{}:{:02}", minutes, rest);
 }
 
+std::string about_seconds(double seconds) {
+  constexpr double kFew = 9.5, kClock = 99.5;
+  return seconds < kFew     ? fmt::format("{:.1f} s", seconds)
+         : seconds < kClock ? fmt::format("{:.0f} s", seconds)
+                            : clock_text(seconds);
+}
+
+std::string about_bytes(double bytes) {
+  constexpr double kMega = 1e6, kGiga = 1e9;
+  return bytes < kGiga ? fmt::format("{:.0f} MB", bytes / kMega)
+                       : fmt::format("{:.1f} GB", bytes / kGiga);
+}
+
+void Expectation::add(const Cost& cost) {
+  if (is_set(cost.memory)) memory = std::max(memory, cost.memory);
+  if (is_set(cost.seconds))
+    expected += cost.seconds;
+  else
+    ++unknown;
+}
+
 RunEvents Display::events() {
   RunEvents events;
   events.decided = [this](std::string_view stage, const Decision& decision) {
     plan(stage, decision);
+    expected_ = decision.expected;
     std::fflush(stdout);
     start_ = Clock::now();
     first_fraction_ = -1.0;
@@ -141,7 +163,16 @@ void Display::plan(std::string_view stage, const Decision& decision) const {
                                     });
     why += fmt::format(", {} warning{}{}", n, n == 1 ? "" : "s", follow ? ":" : " (above)");
   }
-  fmt::print("{}\n", cut_to(fmt::format("{:<{}} {}{}", stage, kNameWidth, verb, why), columns_));
+  std::string cost;
+  if (is_set(decision.expected.seconds))
+    cost += ", about " + about_seconds(decision.expected.seconds);
+  if (is_set(decision.expected.memory)) cost += ", " + about_bytes(decision.expected.memory);
+  // Of a long reason the end goes, not what it takes; a narrow terminal has room for the reason
+  // only.
+  constexpr std::size_t kLeast = 50;
+  if (cost.size() + kLeast > columns_) cost.clear();
+  const std::string line = fmt::format("{:<{}} {}{}", stage, kNameWidth, verb, why);
+  fmt::print("{}{}\n", cut_to(line, columns_ - cost.size()), cost);
 }
 
 void Display::progress(std::string_view stage, Share share, std::string_view text) {
@@ -183,6 +214,8 @@ void Display::progress(std::string_view stage, Share share, std::string_view tex
 void Display::done(std::string_view stage, double seconds) {
   if (bar_on_line_) fmt::print("\r\033[K");
   bar_on_line_ = false;
+  expectation_.add(expected_);
+  if (is_set(expected_.seconds)) expectation_.taken += seconds;
   fmt::print("{:<{}} done in {:.1f} s\n", stage, kNameWidth, seconds);
   std::fflush(stdout);
 }

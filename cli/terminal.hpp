@@ -13,6 +13,18 @@ namespace flowslide::cli {
 /// "0:07", "12:30", "3:05:00"
 std::string clock_text(double seconds);
 
+/// "7 s", "12:30", "0.3 s"; "90 MB", "1.2 GB"
+std::string about_seconds(double seconds);
+std::string about_bytes(double bytes);
+
+/// What stages were expected to take, and took.
+struct Expectation {
+  double expected = 0.0, taken = 0.0;  ///< [s] of the stages of which something was expected
+  double memory = 0.0;                 ///< largest expected [bytes]
+  int unknown = 0;                     ///< stages of which nobody knew
+  void add(const Cost& cost);
+};
+
 /// Columns of the terminal behind a file descriptor, else of COLUMNS, else 80; at least 20.
 std::size_t terminal_columns(int file);
 
@@ -38,6 +50,8 @@ class Display {
   /// Ends a bar that is still on the line.
   void close();
   [[nodiscard]] std::size_t num_warnings() const { return warned_.size(); }
+  /// Of the stages that ran.
+  [[nodiscard]] const Expectation& expectation() const { return expectation_; }
 
  private:
   void warn(std::string_view stage, const std::vector<std::string>& warnings);
@@ -47,6 +61,8 @@ class Display {
   bool terminal_;
   std::size_t columns_;  ///< that a line may have
   std::set<std::string> warned_;
+  Cost expected_;  ///< of the stage that runs
+  Expectation expectation_;
   bool bar_on_line_ = false;
   std::chrono::steady_clock::time_point start_, drawn_;
   double first_fraction_ = -1.0;  ///< where this session began; negative before the first report

@@ -50,6 +50,7 @@ Preview remembering(Preview preview, std::string settings,
     const Findings& said = it->second->found;
     found.errors.insert(found.errors.end(), said.errors.begin(), said.errors.end());
     found.warnings.insert(found.warnings.end(), said.warnings.begin(), said.warnings.end());
+    found.work = said.work;
     return it->second;
   };
 }

@@ -3,6 +3,7 @@
 #include "study/run/final_state.hpp"
 #include "study/run/locks.hpp"
 #include "study/run/study_state.hpp"
+#include "workflows/engine/cost_book.hpp"
 #include "workflows/engine/earlier.hpp"
 #include "workflows/engine/result_folder.hpp"
 #include "workflows/engine/run_stage.hpp"
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <sys/resource.h>
 
 #include <fmt/format.h>
 
@@ -21,12 +21,6 @@ namespace fs = std::filesystem;
 
 namespace flowslide::study {
 namespace {
-
-double peak_memory() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) * 1024.0;
-}
 
 /// A stage and the results of all that feed it, as the store knows them.
 struct Ready {

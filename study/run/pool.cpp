@@ -96,12 +96,13 @@ class Pool {
         events_(events),
         locks_(store.folder()),
         tidier_(plan, store, locks_),
+        costs_(plan, progress, options.costs,
+               static_cast<int>(options.threads / std::max<std::size_t>(1, options.jobs))),
         damages_(plan.nodes.size(), 0),
-        not_before_(plan.nodes.size()) {
-    for (std::size_t n = 0; n < plan.nodes.size(); ++n)
-      if (progress.node(n).finished)
-        costs_.learn(plan.nodes[n].stage.type.name, *progress.node(n).finished);
-  }
+        not_before_(plan.nodes.size()) {}
+  ~Pool() { costs_.keep(); }
+  Pool(const Pool&) = delete;
+  Pool& operator=(const Pool&) = delete;
 
   PoolEnd run() {
     store_.sweep();
@@ -137,9 +138,6 @@ class Pool {
  private:
   [[nodiscard]] bool stop() const {
     return options_.stop_requested && options_.stop_requested->load();
-  }
-  [[nodiscard]] const std::string& uses(std::size_t node) const {
-    return plan_.nodes[node].stage.type.name;
   }
   [[nodiscard]] const std::string& stage(std::size_t node) const {
     return plan_.nodes[node].stage.name;
@@ -213,8 +211,8 @@ class Pool {
 
   /// Alone it may always run: what does not fit then is for the stage itself to refuse.
   [[nodiscard]] bool fits(std::size_t n) const {
-    double taken = costs_.memory(uses(n));
-    for (const Running& r : running_) taken += costs_.memory(uses(r.node));
+    double taken = costs_.memory(n);
+    for (const Running& r : running_) taken += costs_.memory(r.node);
     return running_.empty() || taken <= options_.memory;
   }
 
@@ -278,8 +276,6 @@ class Pool {
       r.fraction = std::clamp(fraction, 0.0, 1.0);
       const auto rest = static_cast<std::size_t>(end - line.data()) + 1;
       r.text = rest < line.size() ? line.substr(rest) : "";
-      constexpr double kEnough = 0.02;
-      if (r.fraction > kEnough) costs_.guess(uses(r.node), seconds_since(r.start) / r.fraction);
     }
   }
 
@@ -320,7 +316,7 @@ class Pool {
         node.finished = std::move(finished);
         node.state = State::done;
         node.again = false;
-        costs_.learn(uses(r.node), *node.finished);
+        if (r.end == "made") costs_.learn(r.node, *node.finished, r.threads);
         events_.ended({r.node, State::done, r.end == "found", seconds});
         progress_.resolve();
         tidier_.made(progress_, r.node);
@@ -375,10 +371,10 @@ class Pool {
     for (std::size_t n = 0; n < plan_.nodes.size(); ++n) {
       const State s = progress_.node(n).state;
       if (s == State::ready || s == State::waiting || progress_.node(n).again)
-        left += costs_.seconds(uses(n));
+        left += costs_.seconds(n);
     }
     for (const Running& r : running_) {
-      const double seconds = seconds_since(r.start), all = costs_.seconds(uses(r.node));
+      const double seconds = seconds_since(r.start), all = costs_.seconds(r.node);
       v.running.push_back({r.node, r.threads, r.fraction, seconds, r.text});
       left += r.fraction > 0.05 ? seconds * (1.0 / r.fraction - 1.0) : std::max(0.0, all - seconds);
     }

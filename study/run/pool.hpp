@@ -16,6 +16,7 @@ struct PoolOptions {
   double memory = 1e9;      ///< for all of them together [bytes]
   bool retry = false;       ///< also what failed for good before
   std::vector<std::string> allowed_programs;
+  std::filesystem::path costs = {};  ///< what stages took on this machine, as for CostBook
   const std::atomic<bool>* stop_requested = nullptr;
   /// What a new process does with a job; returns the exit code. Its standard output is read.
   std::function<int(const Job& job)> body;

@@ -4,25 +4,32 @@
 
 namespace flowslide::study {
 
-void WorkCosts::learn(const std::string& uses, const Finished& finished) {
-  Kind& kind = kinds_[uses];
-  kind.seconds += finished.record.seconds;
-  kind.count += 1.0;
-  kind.memory = std::max(kind.memory, finished.peak_memory);
+WorkCosts::WorkCosts(const Plan& plan, const StudyState& progress, std::filesystem::path file,
+                     int threads)
+    : book_(std::move(file)), threads_(std::max(1, threads)) {
+  for (std::size_t n = 0; n < plan.nodes.size(); ++n) {
+    const Workflow workflow = workflow_of(plan, n);
+    tasks_.push_back(task_of(workflow, workflow.stages.size() - 1));
+    if (const auto& finished = progress.node(n).finished)
+      book_.recall(tasks_[n], threads_, finished->record.seconds, finished->peak_memory);
+  }
+  expect_all();
 }
 
-void WorkCosts::guess(const std::string& uses, double seconds) { kinds_[uses].guessed = seconds; }
-
-double WorkCosts::seconds(const std::string& uses) const {
-  const auto it = kinds_.find(uses);
-  if (it == kinds_.end()) return kUnset;
-  return it->second.count > 0.0 ? it->second.seconds / it->second.count : it->second.guessed;
+void WorkCosts::expect_all() {
+  expected_.clear();
+  for (const Task& task : tasks_) expected_.push_back(book_.expect(task, threads_));
 }
 
-double WorkCosts::memory(const std::string& uses) const {
-  constexpr double kUsual = 300e6;
-  const auto it = kinds_.find(uses);
-  return it == kinds_.end() || it->second.memory == 0.0 ? kUsual : it->second.memory;
+void WorkCosts::learn(std::size_t node, const Finished& finished, int threads) {
+  book_.learn(tasks_[node], threads, finished.record.seconds, finished.peak_memory);
+  expect_all();
+}
+
+double WorkCosts::memory(std::size_t node) const {
+  constexpr double kUsual = 300e6, kMargin = 1.2;
+  const double expected = expected_[node].memory;
+  return is_set(expected) ? kMargin * expected : kUsual;
 }
 
 }  // namespace flowslide::study

@@ -1,27 +1,33 @@
 #pragma once
+#include "study/plan/plan.hpp"
 #include "study/run/study_state.hpp"
+#include "workflows/engine/cost_book.hpp"
 
-#include <map>
-#include <string>
+#include <filesystem>
+#include <vector>
 
 namespace flowslide::study {
 
-/// What stages of a kind have taken so far, and what is to be expected of the next.
+/// What the stages of a study are expected to take: the model of single runs, which learns as they
+/// end.
 class WorkCosts {
  public:
-  void learn(const std::string& uses, const Finished& finished);
-  /// A running stage tells about its kind where none has ended yet.
-  void guess(const std::string& uses, double seconds);
+  /// Learns from what is finished. `threads`: of a stage, as a rule; `file` as for CostBook.
+  WorkCosts(const Plan& plan, const StudyState& progress, std::filesystem::path file, int threads);
+  void learn(std::size_t node, const Finished& finished, int threads);
   /// [s]; NaN if nothing is known.
-  [[nodiscard]] double seconds(const std::string& uses) const;
-  /// [bytes], the largest seen; a usual value before.
-  [[nodiscard]] double memory(const std::string& uses) const;
+  [[nodiscard]] double seconds(std::size_t node) const { return expected_[node].seconds; }
+  /// [bytes]; a usual value where nothing is known.
+  [[nodiscard]] double memory(std::size_t node) const;
+  void keep() { book_.keep(); }
 
  private:
-  struct Kind {
-    double seconds = 0.0, count = 0.0, memory = 0.0, guessed = kUnset;
-  };
-  std::map<std::string, Kind> kinds_;
+  void expect_all();
+
+  CostBook book_;
+  int threads_;
+  std::vector<Task> tasks_;     ///< by node
+  std::vector<Cost> expected_;  ///< by node; asked for ten times a second
 };
 
 }  // namespace flowslide::study

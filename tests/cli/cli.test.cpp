@@ -80,6 +80,18 @@ TEST_CASE("a small import runs, is then up to date, and can be inspected", "[cli
   CHECK(o.code == 0);
   CHECK_THAT(o.out, Contains("settings changed"));
 
+  SECTION("what it took is kept beside the user's caches, and told before the next run") {
+    CHECK_THAT(o.out, Contains(", about 0.") && Contains("expected: about 0."));
+    CHECK(std::distance(std::filesystem::directory_iterator(scratch / "cache/flowslide"), {}) == 1);
+    for (const auto& entry : std::filesystem::directory_iterator(scratch / "cache/flowslide"))
+      std::ofstream(entry.path()) << "damaged";
+    o = call(scratch, "run w.yaml --out out --redo shake");
+    INFO(o.err);
+    CHECK(o.code == 0);
+    CHECK_THAT(o.out, Contains("computing time") && Contains(" expected ("));
+    o = call(scratch, "run w.yaml --out out --redo shake", "unset XDG_CACHE_HOME HOME; ");
+    CHECK(o.code == 0);
+  }
   SECTION("a torn recorder is refused, and what was there stays") {
     scratch.write("stress.out", "0.1 -10 -20 0\n0.2 -10 nonsense 0\n");
     o = run(scratch, shake());

@@ -22,7 +22,9 @@ inline const std::string kWithoutPower =
 
 inline Outcome call(const Scratch& scratch, const std::string& arguments,
                     const std::string& before = "") {
-  const std::string command = "cd '" + scratch.path().string() + "' && " + before +
+  // What runs take is not learnt into the home of who tests.
+  const std::string command = "cd '" + scratch.path().string() +
+                              "' && export XDG_CACHE_HOME=\"$PWD/cache\" && " + before +
                               FLOWSLIDE_BINARY " " + arguments + " >out.txt 2>err.txt";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
@@ -39,7 +41,8 @@ inline std::string on_terminal(const Scratch& scratch, const std::string& argume
   REQUIRE(child >= 0);
   if (child == 0) {
     const std::string command =
-        "cd '" + scratch.path().string() + "' && exec " FLOWSLIDE_BINARY " " + arguments;
+        "cd '" + scratch.path().string() +
+        "' && export XDG_CACHE_HOME=\"$PWD/cache\" && exec " FLOWSLIDE_BINARY " " + arguments;
     ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
     ::_exit(127);
   }

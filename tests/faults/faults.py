@@ -52,8 +52,9 @@ class Program:
     """The program, waiting in the shim's server for jobs."""
 
     def __init__(self, program, shim):
+        # No home: what one run learns of its cost would give the next one other calls.
         environment = dict(os.environ, LD_PRELOAD=shim, GOMP_SPINCOUNT="1000", LC_ALL="C",
-                           SOURCE_DATE_EPOCH="0")
+                           SOURCE_DATE_EPOCH="0", HOME="", XDG_CACHE_HOME="")
         self.process = subprocess.Popen([program], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                                         env=environment, text=True)
 

@@ -1,4 +1,5 @@
 #include "study/numbers/random.hpp"
+#include "study/run/work_costs.hpp"
 #include "tests/study/study_bench.hpp"
 
 #include <chrono>
@@ -33,6 +34,26 @@ TEST_CASE("What rows share runs once", "[study]") {
   CHECK_THAT(csv, Contains("base,3,10,0,done,,"));
   CHECK(bench.run(kValues) == csv);
   CHECK(bench.made().size() == 16);
+}
+
+TEST_CASE("A study learns what its stages take, for itself and for the next one", "[study]") {
+  StudyBench bench;
+  bench.costs = bench.scratch / "cache/costs.json";
+  const Plan plan = bench.plan(kValues);
+  const auto costs = [&](const std::filesystem::path& file) {
+    return WorkCosts(plan, bench.progress(plan), file, 1);
+  };
+  CHECK_FALSE(is_set(costs({}).seconds(0)));
+  CHECK(costs({}).memory(0) == 300e6);
+  bench.run(plan);
+  const WorkCosts here = costs({});
+  std::filesystem::remove_all(bench.folder / "stages");
+  const WorkCosts next = costs(bench.costs);
+  CHECK_FALSE(is_set(costs({}).seconds(0)));  // the control: from the file alone
+  for (std::size_t n = 0; n < plan.nodes.size(); ++n) {
+    CHECK(here.seconds(n) > 0.0);
+    CHECK(next.seconds(n) == Approx(here.seconds(n)).epsilon(1e-6));
+  }
 }
 
 TEST_CASE("A row that is added runs its own stages only, one taken away none", "[study]") {

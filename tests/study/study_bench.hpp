@@ -35,6 +35,7 @@ struct StudyBench {
   std::vector<StageType> types = flowslide::sample::stages();
   std::size_t jobs = 2;
   bool retry = false;
+  std::filesystem::path costs = {};
   const std::atomic<bool>* stop = nullptr;
   std::function<void(const Job&)> before = [](const Job&) {};  ///< in the process of the stage
   std::vector<std::string> notices;
@@ -62,6 +63,7 @@ struct StudyBench {
                         .memory = 1e12,
                         .retry = retry,
                         .allowed_programs = {},
+                        .costs = costs,
                         .stop_requested = stop,
                         .body = {}};
     options.body = [this](const Job& job) {

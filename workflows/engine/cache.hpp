@@ -1,4 +1,5 @@
 #pragma once
+#include "workflows/engine/costs.hpp"
 #include "workflows/engine/graph.hpp"
 #include "workflows/engine/record.hpp"
 
@@ -25,6 +26,7 @@ struct Decision {
   std::vector<HashedFile> files = {};      ///< of the result to reuse, just read
   std::vector<std::string> problems = {};  ///< what is wrong with a result that cannot be reused
   std::vector<std::string> warnings = {};  ///< of the result to reuse, and of the settings
+  Cost expected = {};                      ///< of what has to run; unset where nobody knows
 };
 
 /// Decides about one stage, and reads every file of a result before it says that it can be reused.

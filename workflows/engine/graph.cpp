@@ -210,6 +210,7 @@ void preview_stages(Workflow& workflow, const YamlNode& stages, Problems& proble
         throw FileError(locate(place, e.what()).what());
       }
       stage.warnings = std::move(found.warnings);
+      stage.work = found.work;
       if (!found.errors.empty())
         throw locate(place, fmt::format("{}", fmt::join(found.errors, "\n")));
     });

@@ -23,6 +23,7 @@ struct WorkflowStage {
   std::vector<Link> inputs;                ///< in the order of type.inputs
   std::any preview = {};                   ///< what its preview returned; empty if it has none
   std::vector<std::string> warnings = {};  ///< what is odd about its settings and their files
+  Work work = {};                          ///< unset where only a run can tell
 };
 
 /// A workflow that can run: settings read, ports connected, stages after what feeds them.

@@ -71,6 +71,14 @@ bool is_asked_for(const WorkflowStage& stage, const RunOptions& options) {
   return std::find(options.redo.begin(), options.redo.end(), stage.name) != options.redo.end();
 }
 
+/// The largest memory of the process is that of this stage only if it has grown.
+void learn(const Workflow& workflow, std::size_t stage, const RunOptions& options, double seconds,
+           double memory_before) {
+  const double memory = peak_memory();
+  options.costs->learn(task_of(workflow, stage), options.threads, seconds,
+                       memory > memory_before ? memory : 0.0);
+}
+
 void run_stages(const Workflow& workflow, const RunOptions& options, const RunEvents& events) {
   const auto start = Clock::now();
   const RunFolder folder(options.folder);
@@ -94,6 +102,9 @@ void run_stages(const Workflow& workflow, const RunOptions& options, const RunEv
       decision.why = "asked for";
       decision.record.reset();
     }
+    if (options.costs && decision.action != Action::reuse)
+      decision.expected =
+          options.costs->expect(task_of(workflow, outcomes.size()), options.threads);
     decision.warnings = warnings_of(stage, decision.record ? &*decision.record : nullptr);
     tell_problems(stage, decision, events);
     events.decided(stage.name, decision);
@@ -107,8 +118,11 @@ void run_stages(const Workflow& workflow, const RunOptions& options, const RunEv
     } else {
       top.stage_runs();
       const auto stage_start = Clock::now();
+      const double memory_before = peak_memory();
       state = run_stage(stage, decision, inputs, options, events);
       in_stages += seconds_since(stage_start);
+      if (options.costs)
+        learn(workflow, outcomes.size(), options, state.record.seconds, memory_before);
       decision.warnings = warnings_of(stage, &state.record);
       events.done(stage.name, state.record.seconds);
       events.warned(stage.name, decision.warnings);
@@ -134,7 +148,8 @@ void run_workflow(const Workflow& workflow, const RunOptions& options, const Run
   }
 }
 
-std::vector<PlanLine> plan_workflow(const Workflow& workflow, const fs::path& folder) {
+std::vector<PlanLine> plan_workflow(const Workflow& workflow, const fs::path& folder,
+                                    const CostBook* costs, int threads) {
   const std::optional<RunLock> before = read_lock(folder).lock;
   std::vector<std::optional<StageState>> results;
   std::vector<PlanLine> plan;
@@ -148,6 +163,8 @@ std::vector<PlanLine> plan_workflow(const Workflow& workflow, const fs::path& fo
     results.emplace_back();
     if (decision.action == Action::reuse)
       results.back() = StageState{*decision.record, decision.files};
+    else if (costs)
+      decision.expected = costs->expect(task_of(workflow, plan.size() - 1), threads);
   }
   return plan;
 }

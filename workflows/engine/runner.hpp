@@ -1,5 +1,6 @@
 #pragma once
 #include "workflows/engine/cache.hpp"
+#include "workflows/engine/cost_book.hpp"
 #include "workflows/engine/graph.hpp"
 
 #include <atomic>
@@ -19,6 +20,7 @@ struct RunOptions {
   std::vector<std::string> redo = {};  ///< stages that run even if they are up to date
   /// Programs that a workflow file may have started, as it names them: the user's word.
   std::vector<std::string> allowed_programs = {};
+  CostBook* costs = nullptr;  ///< says what stages will take, and learns what they took
 };
 
 /// What a run tells its caller.
@@ -51,8 +53,10 @@ struct PlanLine {
   Decision decision;
 };
 
-/// What run_workflow would do; reads all of the run folder, if there is one, and changes nothing.
-std::vector<PlanLine> plan_workflow(const Workflow& workflow, const std::filesystem::path& folder);
+/// What run_workflow would do, and with `costs` what it would take; reads all of the run folder, if
+/// there is one, and changes nothing.
+std::vector<PlanLine> plan_workflow(const Workflow& workflow, const std::filesystem::path& folder,
+                                    const CostBook* costs = nullptr, int threads = 1);
 
 /// Text of DIR/result.json: what the stages found, in SI units, each number under its own name at
 /// the top. Where stages of different types find the same, the later one counts; where two of the

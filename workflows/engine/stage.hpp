@@ -5,6 +5,7 @@
 #include "config/yaml.hpp"
 #include "core/progress.hpp"
 #include "workflows/engine/artifact.hpp"
+#include "workflows/engine/work.hpp"
 
 #include <any>
 #include <concepts>
@@ -65,9 +66,11 @@ struct StageResult {
   std::vector<Headline> headlines = {};
 };
 
-/// What is wrong and what is odd about settings and the files they name, before anything runs.
+/// What is wrong and what is odd about settings and the files they name, and how much there is to
+/// do, before anything runs.
 struct Findings {
   std::vector<std::string> errors, warnings;
+  Work work = {};
 };
 
 /// What is known of each input before anything runs, by port; empty where nothing is.

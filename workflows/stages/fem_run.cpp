@@ -10,6 +10,7 @@
 #include "workflows/stages/cross_checks.hpp"
 #include "workflows/stages/preview.hpp"
 #include "workflows/stages/stage_list.hpp"
+#include "workflows/stages/work.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -90,6 +91,7 @@ struct FemRun {
     p.end = config.end;
     p.water = config.water;
     if (!p.section) return p;
+    found.work = shaking_work(config, p.section->mesh, config.stop_at_transfer.has_value());
     check_water(config, p.section->mesh, found);
     (void)fem::build_model(*p.section, config);  // names, sets and ends against the mesh
     p.materials = fem::history_materials(*p.section, config);

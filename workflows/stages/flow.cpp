@@ -3,6 +3,7 @@
 #include "workflows/stages/cross_checks.hpp"
 #include "workflows/stages/preview.hpp"
 #include "workflows/stages/stage_list.hpp"
+#include "workflows/stages/work.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -31,6 +32,7 @@ struct FlowStage {
     compare_cells(config, *p.map, found);
     if (!p.section || p.materials.empty()) return p;
     const Soil soil = soil_of(*p.section, *p.map, p.materials);
+    found.work = flow_work(config, *p.map, p.materials, soil);
     check_edges(config, soil, found);
     check_tractions(config, soil, found);
     check_ground(config, soil, found);

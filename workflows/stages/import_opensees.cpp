@@ -3,6 +3,7 @@
 #include "workflows/stages/cross_checks.hpp"
 #include "workflows/stages/preview.hpp"
 #include "workflows/stages/stage_list.hpp"
+#include "workflows/stages/work.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -39,6 +40,7 @@ struct ImportOpenSees {
     found.warnings = std::move(import.warnings);
     check_size(p.section->mesh, found);
     check_densities(p.materials, found);
+    found.work = mesh_work(p.section->mesh);
     return p;
   }
   static StageResult run(const RunContext& context, const Config& config, const Inputs&,

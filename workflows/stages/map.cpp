@@ -2,6 +2,7 @@
 #include "workflows/stages/cross_checks.hpp"
 #include "workflows/stages/preview.hpp"
 #include "workflows/stages/stage_list.hpp"
+#include "workflows/stages/work.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -36,6 +37,7 @@ struct MapStage {
     p.map = config;
     if (!p.section || p.materials.empty()) return p;
     const Soil soil = soil_of(*p.section, config, p.materials);
+    found.work = map_work(config, soil);
     check_map_materials(config, p.materials, soil, found);
     check_map_names(config, *p.section, p.materials, p.zone, found);
     check_memory(config, soil, kUnset, physical_memory(), found);

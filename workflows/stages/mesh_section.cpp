@@ -4,6 +4,7 @@
 #include "workflows/stages/mesh_facts.hpp"
 #include "workflows/stages/preview.hpp"
 #include "workflows/stages/stage_list.hpp"
+#include "workflows/stages/work.hpp"
 
 namespace flowslide {
 namespace {
@@ -28,6 +29,7 @@ struct MeshSectionStage {
     p.section = std::make_shared<const SectionMesh>(mesh_section(config));
     found.warnings = p.section->notes;
     check_size(p.section->mesh, found);
+    found.work = mesh_work(p.section->mesh);
     return p;
   }
   static StageResult run(const RunContext&, const Config& config, const Inputs&,

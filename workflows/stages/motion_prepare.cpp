@@ -3,6 +3,7 @@
 #include "motion/prepare.hpp"
 #include "workflows/stages/preview.hpp"
 #include "workflows/stages/stage_list.hpp"
+#include "workflows/stages/work.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -27,6 +28,7 @@ struct MotionPrepareStage {
   /// Reading a record takes less than a second; making a motion takes longer and opens no file.
   static std::any preview(const Config& config, const Previews&, Findings& found) {
     if (config.record) (void)prepare_motion(config, {}, &found.warnings);
+    found.work = motion_work();
     return Preview{};
   }
   static StageResult run(const RunContext& context, const Config& config, const Inputs&,

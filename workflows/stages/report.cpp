@@ -6,6 +6,7 @@
 #include "workflows/stages/cross_checks.hpp"
 #include "workflows/stages/preview.hpp"
 #include "workflows/stages/stage_list.hpp"
+#include "workflows/stages/work.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -84,6 +85,7 @@ struct ReportStage {
   static std::any preview(const Config& config, const Previews& in, Findings& found) {
     Preview p = merged(in);
     p.toe = config.toe;
+    found.work = report_work(config);
     if (p.flow && p.flow->extrude)
       found.errors.emplace_back(
           "the runout has three dimensions (the report draws sections) take this stage out of the "

@@ -4,6 +4,7 @@
 #include "workflows/stages/cross_checks.hpp"
 #include "workflows/stages/preview.hpp"
 #include "workflows/stages/stage_list.hpp"
+#include "workflows/stages/work.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -75,6 +76,7 @@ struct ZoneStage {
           "earlier time or a later `end` of fem.run",
           *config.transfer.at, *p.end));
     if (!p.section) return p;
+    found.work = zone_work(p.section->mesh, p.shakes, p.end);
     if (p.materials.empty()) return p;
     (void)zone_parts(p.section->mesh, p.materials, config);
     check_pond(config, p.section->mesh, p.materials, found);

@@ -1,0 +1,143 @@
+#include "workflows/stages/work.hpp"
+
+#include "core/conventions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace flowslide {
+namespace {
+
+constexpr double kProgram = 30e6;   ///< memory of the program and its libraries [bytes]
+constexpr double kStart = 0.05;     ///< to open and close the files of a stage [s]
+constexpr double kParallel = 0.95;  ///< of the steps
+
+// Seconds of one thread of an AMD EPYC with AVX-512, and bytes.
+constexpr double kPerElement = 1e-5, kBytesPerElement = 4e3;
+constexpr double kPerElementStep = 2.6e-7, kBytesPerShakenElement = 30e3;
+constexpr double kPerElementFrame = 1e-6;
+constexpr double kPerSeededPoint = 1.5e-5, kPerPointStep = 7e-8, kPerPointStep3d = 1.8e-7;
+constexpr double kBytesPerPoint = 1.5e3, kBytesPerPoint3d = 2e3;
+constexpr double kMotion = 0.1, kReport = 0.1, kFigures = 6.0, kReportBytes = 100e6;
+
+constexpr double kUsualShaking = 30.0;  ///< of a motion of which nothing is known [s]
+constexpr double kOutputInterval = 0.25;
+constexpr double kUntilTransfer = 0.7;  ///< of a shaking that ends by the rule of the transfer
+constexpr double kSaturatedWave = 700.0, kDryWave = 250.0;  ///< of soil under a dam [m/s]
+constexpr double kTimesOfFall = 35.0;                       ///< sqrt(H/g) until a slide is at rest
+constexpr double kStepOfMpm = 0.45;  ///< h/c in two dimensions, with the usual `courant`
+
+/// Smallest height of an element: its area over its longest side.
+double smallest_height(const QuadMesh& mesh) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& nodes : mesh.elements) {
+    double twice_area = 0.0, longest = 0.0;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const Vec2 &a = mesh.nodes[nodes[k]], &b = mesh.nodes[nodes[(k + 1) % nodes.size()]];
+      twice_area += a[0] * b[1] - b[0] * a[1];
+      longest = std::max(longest, std::hypot(b[0] - a[0], b[1] - a[1]));
+    }
+    if (longest > 0.0) least = std::min(least, 0.5 * std::abs(twice_area) / longest);
+  }
+  return least;
+}
+
+/// As in docs/theory/fem.md, (soil + water) dt^2/4 + beta soil dt/2 = 1 with squared frequencies of
+/// waves across the height of an element.
+double stable_step(double height, const FemDampingConfig& damping) {
+  const double undamped = height / kSaturatedWave, dry = 2.0 * kDryWave / height;
+  const double usual =
+      damping.ratio / (std::numbers::pi * (damping.frequencies[0] + damping.frequencies[1]));
+  const double a = 0.25 * damping.stiffness.value_or(usual) * dry * dry;
+  return 1.0 / (a + std::sqrt(a * a + 1.0 / (undamped * undamped)));
+}
+
+double elements_of(const QuadMesh& mesh) { return static_cast<double>(mesh.elements.size()); }
+
+double points_of(const MapConfig& map, const Soil& soil) {
+  if (map.seeding == Seeding::gauss) return 4.0 * static_cast<double>(soil.centres.size());
+  const double per_metre = map.points_per_cell / map.cell;
+  return soil.area * per_metre * per_metre;
+}
+
+/// (K + 2 G) / rho [m2/s2]
+double wave2(double youngs_modulus, double poisson_ratio, double density) {
+  const double bulk = youngs_modulus / (3.0 * (1.0 - 2.0 * poisson_ratio));
+  return (bulk + youngs_modulus / (1.0 + poisson_ratio)) / density;
+}
+
+double fastest_wave(const MapConfig& map, const std::vector<HistoryMaterial>& materials) {
+  double most2 = 0.0;
+  for (const auto& [name, m] : map.materials) {
+    double density = std::numeric_limits<double>::infinity();
+    for (const std::string& source : sources_of(name, m))
+      density = std::min(density, find_material(materials, source, name).density);
+    const LawParameters law = to_parameters(make_material(m.law, name));
+    const auto young = law.parameters.find("youngs_modulus");
+    const auto poisson = law.parameters.find("poisson_ratio");
+    if (young != law.parameters.end() && poisson != law.parameters.end())
+      most2 = std::max(most2, wave2(young->second, poisson->second, density));
+    if (m.liquefied)
+      most2 =
+          std::max(most2, wave2(m.liquefied->youngs_modulus, m.liquefied->poisson_ratio, density));
+  }
+  return std::sqrt(most2);
+}
+
+}  // namespace
+
+Work mesh_work(const QuadMesh& mesh) {
+  return {.seconds = kStart + kPerElement * elements_of(mesh),
+          .parallel = 0.0,
+          .memory = kProgram + kBytesPerElement * elements_of(mesh)};
+}
+
+Work shaking_work(const FemConfig& config, const QuadMesh& mesh, bool stops_at_transfer) {
+  const double end =
+      config.end.value_or(kUsualShaking) * (stops_at_transfer ? kUntilTransfer : 1.0);
+  const double step = config.courant * stable_step(smallest_height(mesh), config.damping);
+  return {.seconds = kStart + kPerElementStep * elements_of(mesh) * end / step,
+          .parallel = kParallel,
+          .memory = kProgram + kBytesPerShakenElement * elements_of(mesh)};
+}
+
+Work zone_work(const QuadMesh& mesh, bool shakes, std::optional<double> end) {
+  const double frames = shakes ? end.value_or(kUsualShaking) / kOutputInterval : 1.0;
+  return {.seconds = kStart + kPerElementFrame * elements_of(mesh) * frames,
+          .parallel = 0.0,
+          .memory = kProgram + kBytesPerElement * elements_of(mesh)};
+}
+
+Work map_work(const MapConfig& map, const Soil& soil) {
+  const double points = points_of(map, soil);
+  return {.seconds = kStart + kPerSeededPoint * points,
+          .parallel = 0.0,
+          .memory = kProgram + kBytesPerPoint * points};
+}
+
+Work flow_work(const FlowConfig& flow, const MapConfig& map,
+               const std::vector<HistoryMaterial>& materials, const Soil& soil) {
+  const double wave = fastest_wave(map, materials);
+  if (!(wave > 0.0) || soil.counted.empty()) return {};
+  const bool plane = !flow.extrude;
+  const double across = plane ? 1.0 : flow.extrude->width * map.points_per_cell / map.cell;
+  const double points = points_of(map, soil) * across;
+  const double rest = kTimesOfFall * std::sqrt(soil.counted.height() / kGravity);
+  const double usual = mpm::StepSettings{}.courant;
+  const double step = kStepOfMpm * flow.cell / wave * flow.courant / usual;
+  return {.seconds = kStart + (plane ? kPerPointStep : kPerPointStep3d) * points *
+                                  std::min(flow.end, rest) / step,
+          .parallel = kParallel,
+          .memory = kProgram + (plane ? kBytesPerPoint : kBytesPerPoint3d) * points};
+}
+
+Work motion_work() { return {.seconds = kMotion, .parallel = 0.0, .memory = kProgram}; }
+
+Work report_work(const ReportConfig& config) {
+  return {.seconds = kReport + (config.figures ? kFigures : 0.0),
+          .parallel = 0.0,
+          .memory = kReportBytes};
+}
+
+}  // namespace flowslide
