@@ -33,7 +33,7 @@ std::vector<Headline> headlines(const ReportFacts& f) {
                               f.toe - f.front);
   std::vector<Headline> all{std::move(runout)};
   for (const auto& [window, depth] : f.liquefaction_depth)
-    all.push_back({"liquefaction_depth_" + window + "_m", "liquefaction depth, " + window, "m"});
+    all.push_back({"liquefaction_depth_" + window + "_m", "liquefaction depth, " + window_label(window), "m"});
   all.push_back({"transfer_time_s", "transfer at", "s"});
   all.push_back({"mass_error", "mass error"});
   all.push_back({"energy_error", "energy error"});

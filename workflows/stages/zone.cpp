@@ -69,11 +69,8 @@ struct ZoneStage {
     check_strength(config.strength, found);
     if (p.stop) compare_transfer_rules(*p.stop, config, found);
     p.zone = config;
-    if (p.end && config.transfer.at && *config.transfer.at > *p.end * (1.0 + 1e-9))
-      found.errors.push_back(fmt::format(
-          "at: {:g} s, but the shaking ends at {:g} s (there is no state to transfer) choose an "
-          "earlier time or a later `end` of fem.run",
-          *config.transfer.at, *p.end));
+    const bool told = p.stop && p.stop->transfer.at == config.transfer.at;
+    if (!told && p.end) check_transfer_time(config, *p.end, "", found);
     if (!p.section) return p;
     if (p.materials.empty()) return p;
     (void)zone_parts(p.section->mesh, p.materials, config);
@@ -91,7 +88,7 @@ struct ZoneStage {
       add_depths(facts, zone, i);
       const std::string& name = zone.window_names[i];
       result.headlines.push_back(
-          {"liquefaction_depth_" + name + "_m", "liquefaction depth, " + name, "m"});
+          {"liquefaction_depth_" + name + "_m", "liquefaction depth, " + window_label(name), "m"});
     }
     result.headlines.push_back({"transfer_time_s", "transfer at", "s"});
     if (is_set(zone.onset_time)) facts["onset_time_s"] = zone.onset_time;
