@@ -26,7 +26,7 @@ struct flowslide::Schema<Numbered> {
   static constexpr std::string_view doc = "Something with a number.";
   static void describe(FieldVisitor& v, Numbered& c) {
     v.integer("tag", c.tag, {.min = 1}, "its number");
-    v.quantity("phi", c.phi, Dim::angle, {.above = 0.0, .max = 0.5 * kPi}, "an angle");
+    v.quantity("phi", c.phi, Dim::angle, {.max = 0.5 * kPi, .above = 0.0}, "an angle");
   }
 };
 
