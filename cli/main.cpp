@@ -25,7 +25,8 @@ namespace {
 
 constexpr int kNoResources = 4;  ///< exit code where memory, threads or a file are not to be had
 
-/// Every line of a message is an error of its own. Allocates nothing: it may be memory that is short.
+/// Every line of a message is an error of its own. Allocates nothing: it may be memory that is
+/// short.
 void print_errors(std::string_view text) {
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());

@@ -68,8 +68,7 @@ class JsonSchema final : public FieldVisitor {
 
   void quantity(std::string_view key, double& value, Dim dim, Range range,
                 std::string_view doc) override {
-    add(key, quantity_schema(dim, range), doc, !is_set(value),
-        shown_range(range, dim));
+    add(key, quantity_schema(dim, range), doc, !is_set(value), shown_range(range, dim));
     if (is_set(value)) preset(key, value, dim);
   }
   void quantity(std::string_view key, std::optional<double>& value, Dim dim, Range range,

@@ -47,7 +47,8 @@ class ManualPage final : public FieldVisitor {
         shown_range(range, dim), doc);
   }
   void integer(std::string_view key, int& value, Range range, std::string_view doc) override {
-    row(key, "whole number", range.contains(value) ? code(std::to_string(value)) : std::string(kRequired),
+    row(key, "whole number",
+        range.contains(value) ? code(std::to_string(value)) : std::string(kRequired),
         range_text(range, "", 1.0), doc);
   }
   void flag(std::string_view key, bool& value, std::string_view doc) override {

@@ -28,7 +28,8 @@ struct ZoneHistory {
   std::vector<double> distortion_centre;  ///< Q with the Jacobian at the centre, the area ratio [-]
 };
 
-/// Name of the one window that there is where the user gave none, and what to call a window in texts.
+/// Name of the one window that there is where the user gave none, and what to call a window in
+/// texts.
 inline constexpr std::string_view kWholeSoil = "all";
 inline std::string window_label(std::string_view name) {
   return std::string(name == kWholeSoil ? "whole soil" : name);

@@ -65,12 +65,13 @@ void compare_units(const std::string& name, const std::vector<Heading>& headings
   for (const Heading& h : headings) {
     const auto unit = unit_in_heading(h.text, column, columns);
     if (!unit) continue;
-    validate(declared.has_value(),
-             "{}:{}: the unit of acceleration is not known (headings may be wrong, and are not taken "
-             "at their word) give `unit: {}` if that is what it says",
-             name, h.line, *unit);
-    const double ratio = unit_factor(*declared, Dim::acceleration) /
-                         unit_factor(*unit, Dim::acceleration);
+    validate(
+        declared.has_value(),
+        "{}:{}: the unit of acceleration is not known (headings may be wrong, and are not taken "
+        "at their word) give `unit: {}` if that is what it says",
+        name, h.line, *unit);
+    const double ratio =
+        unit_factor(*declared, Dim::acceleration) / unit_factor(*unit, Dim::acceleration);
     validate(std::abs(ratio - 1.0) < 1e-9,
              "{}:{}: the heading says {}, but `unit` is {} (accelerations would be {:.4g} times "
              "those of the heading) correct `unit`, or the heading in a copy of the file",

@@ -74,8 +74,8 @@ std::vector<std::string> implausible(const std::string& name, double peak, doubl
         of, peak / kGravity));
   if (peak < kLeast)
     odd.push_back(fmt::format(
-        "{}the peak is {:.2g} g, which nobody would feel. Is the unit of acceleration right?",
-        of, peak / kGravity));
+        "{}the peak is {:.2g} g, which nobody would feel. Is the unit of acceleration right?", of,
+        peak / kGravity));
   // Records have 0.001 to 0.02 s; in 0.1 s nothing is left above 5 Hz.
   if (!(step >= 1e-4 && step <= 0.1))
     odd.push_back(fmt::format(

@@ -69,8 +69,9 @@ void Schema<MotionConfig>::describe(FieldVisitor& v, MotionConfig& c) {
   v.text("unit", c.format.unit,
          "unit of acceleration in a record that does not state it: g, cm/s2, m/s2");
   v.quantity("dt", c.format.dt, Dim::time, {.above = 0.0}, "time step of a record of one column");
-  v.integer("time_column", c.format.time_column, {.min = 0},
-            "column of time, counted from 1; 0: the first of two, and with acceleration_column none");
+  v.integer(
+      "time_column", c.format.time_column, {.min = 0},
+      "column of time, counted from 1; 0: the first of two, and with acceleration_column none");
   v.integer("acceleration_column", c.format.acceleration_column, {.min = 0},
             "column of acceleration, counted from 1; 0: the only one or the second of two; a wider "
             "file needs it");

@@ -94,7 +94,6 @@ std::optional<std::string> unit_at_start(std::string_view text) {
   return std::nullopt;
 }
 
-
 std::optional<std::string> unit_in_heading(std::string_view heading, std::size_t column,
                                            std::size_t columns) {
   const std::vector<std::string_view> parts = parts_of(heading);

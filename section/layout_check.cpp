@@ -91,7 +91,8 @@ std::vector<std::string> open_wedges(const Layout& layout, const Loop& loop) {
   const std::size_t n = loop.points.size();
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t before = (i + n - 1) % n;
-    const Vec2 p = loop.points[i], p_before = loop.points[before], p_next = loop.points[(i + 1) % n];
+    const Vec2 p = loop.points[i], p_before = loop.points[before],
+               p_next = loop.points[(i + 1) % n];
     const double length_a = distance(p, p_before), length_b = distance(p, p_next);
     const Vec2 a{(p_before[0] - p[0]) / length_a, (p_before[1] - p[1]) / length_a};
     const Vec2 b{(p_next[0] - p[0]) / length_b, (p_next[1] - p[1]) / length_b};
@@ -101,8 +102,7 @@ std::vector<std::string> open_wedges(const Layout& layout, const Loop& loop) {
     notes.push_back(fmt::format(
         "a wedge is left open at ({:.6g}, {:.6g}), between the blocks {}: it is {:.3g} m wide {:.3g} "
         "m away. If they touch there, give their sides the same points.",
-        p[0], p[1],
-        block_names(layout, {loop.owner[before], loop.owner[i]}), width, length));
+        p[0], p[1], block_names(layout, {loop.owner[before], loop.owner[i]}), width, length));
   }
   return notes;
 }

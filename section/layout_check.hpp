@@ -7,8 +7,8 @@ namespace flowslide {
 void check_overlaps(const Layout& layout);
 
 /// The segments with one block form one closed line around all. Throws InputError. Returns, as
-/// sentences, where that line goes into the section and back at a sharp angle: there two blocks that
-/// should touch part.
+/// sentences, where that line goes into the section and back at a sharp angle: there two blocks
+/// that should touch part.
 std::vector<std::string> check_boundary(const Layout& layout);
 
 }  // namespace flowslide

@@ -104,10 +104,10 @@ TEST_CASE("the manual page has one row per key", "[config]") {
 }
 
 TEST_CASE("a whole number whose default is out of range must be given", "[config]") {
-  CHECK_THAT(sample::problem_of(
-                 "phi: 30 deg\n",
-                 [](const auto& path) { read_settings<Numbered>(load_yaml(path), ""); }),
-             Catch::Contains("'tag' is missing (its number) add 'tag: 1'"));
+  CHECK_THAT(
+      sample::problem_of("phi: 30 deg\n",
+                         [](const auto& path) { read_settings<Numbered>(load_yaml(path), ""); }),
+      Catch::Contains("'tag' is missing (its number) add 'tag: 1'"));
   const YamlFile file("tag: 7\n");
   CHECK(read_settings<Numbered>(load_yaml(file.path()), "").tag == 7);
   const auto schema = nlohmann::json::parse(json_schema<Numbered>());

@@ -215,8 +215,8 @@ size: 0.5 m
 materials: {sand: {tag: 1}}
 blocks:
   below: {outline: [[0 m, 0 m], [6 m, 0 m], [6 m, 2 m], [0 m, 2 m]], material: sand}
-  above: {outline: [[2 m, 2 m], [3 m, 2 m], )" +
-                                                  bottom + R"(, [4 m, 5 m], [2 m, 5 m]],
+  above: {outline: [[2 m, 2 m], [3 m, 2 m], )" + bottom +
+                                                  R"(, [4 m, 5 m], [2 m, 5 m]],
           corners: [1, 3, 4, 5], material: sand}
 )"));
     return fmt::format("{}", fmt::join(s.notes, "\n"));

@@ -334,6 +334,7 @@ TEST_CASE("a window outside the soil is told with the line on which it stands", 
     CHECK_THAT(error, Contains(fmt::format("case.yaml:{}:", line)) &&
                           Contains(stops ? "stages.shake.with.stop_at_transfer.windows.all: no node"
                                          : "stages.zone.with.windows.all: no node"));
-    if (stops) CHECK_THAT(error, Contains("(the value comes from ${stages.zone.with.windows.all})"));
+    if (stops)
+      CHECK_THAT(error, Contains("(the value comes from ${stages.zone.with.windows.all})"));
   }
 }

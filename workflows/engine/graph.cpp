@@ -168,7 +168,8 @@ std::vector<WorkflowStage> sort_stages(std::vector<Draft>& drafts) {
 InputError locate(const YamlNode& node, const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(detail::locate(node, line).what());
+  for (std::string line; std::getline(in, line);)
+    lines.push_back(detail::locate(node, line).what());
   return InputError(fmt::format("{}", fmt::join(lines, "\n")));
 }
 

@@ -60,7 +60,7 @@ void refuse_unknown_top_keys(const YamlNode& document, const std::vector<std::st
     for (const auto& [name, stage] : stages->entries()) names.push_back(name);
   refuse(document, known, [&](const std::string& key, const YamlNode& value) {
     const bool exact = std::find(names.begin(), names.end(), key) != names.end();
-    const std::optional<std::string> stage = exact                  ? std::optional(key)
+    const std::optional<std::string> stage = exact                 ? std::optional(key)
                                              : nearest(key, known) ? std::nullopt
                                                                    : nearest(key, names);
     if (!stage) return std::string();

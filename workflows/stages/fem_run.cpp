@@ -76,8 +76,7 @@ struct FemRun {
     check_water(config, p.section->mesh, found);
     (void)fem::build_model(*p.section, config);  // names, sets and ends against the mesh
     p.materials = fem::history_materials(*p.section, config);
-    if (config.stop_at_transfer)
-      try {
+    if (config.stop_at_transfer) try {
         (void)zone_parts(p.section->mesh, p.materials, *config.stop_at_transfer);
       } catch (const InputError& e) {
         throw InputError(fmt::format("stop_at_transfer.{}", e.what()));
