@@ -8,7 +8,9 @@
 #include "study/page/page.hpp"
 #include "study/run/clean.hpp"
 #include "study/run/pool.hpp"
+#include "study/run/session_record.hpp"
 #include "workflows/engine/lock.hpp"
+#include "workflows/engine/program_version.hpp"
 #include "workflows/stages/stage_list.hpp"
 
 #include <algorithm>
@@ -89,6 +91,24 @@ StudyOutput output_of(const StudyArguments& args) {
   return ::isatty(STDOUT_FILENO) == 1 ? StudyOutput::terminal : StudyOutput::lines;
 }
 
+study::SessionRecord this_session(const study::PoolOptions& options) {
+  return {.began = {},
+          .program = program_version(),
+          .processor = study::processor_name(),
+          .processors = static_cast<std::size_t>(processors()),
+          .jobs = options.jobs,
+          .threads = options.threads};
+}
+
+/// The same events, and what they cost so far.
+study::PoolEvents logged(study::PoolEvents events, study::SessionLog& log) {
+  events.ended = [tell = events.ended, &log](const study::StageEnd& end) {
+    if (end.state == study::State::done && !end.found) log.stage_made();
+    tell(end);
+  };
+  return events;
+}
+
 /// Exit code of a study as it was planned; nothing if a workflow was edited meanwhile.
 std::optional<int> run_plan(const StudyArguments& args, const study::Plan& plan) {
   expect_allowed(plan, args.allowed_programs);
@@ -103,9 +123,11 @@ std::optional<int> run_plan(const StudyArguments& args, const study::Plan& plan)
   }
   make_folders(folder / "stages");
   study::write_plan(folder, plan);
+  const study::PoolOptions options = pool_options(args);
+  study::SessionLog log(folder, this_session(options));
   study::PoolEnd end = study::PoolEnd::done;
   try {
-    end = run_pool(plan, store, progress, pool_options(args), display.events());
+    end = run_pool(plan, store, progress, options, logged(display.events(), log));
   } catch (...) {
     display.close();
     throw;

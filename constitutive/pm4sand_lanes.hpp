@@ -14,6 +14,10 @@ namespace flowslide::pm4sand {
 
 /// Sub-steps are not made smaller than this strain; there the error is accepted.
 inline constexpr double kSmallestIncrement = 1e-9;
+/// Where a sub-step ends below the floor of mean stress, lifting corrects more than its error: its
+/// tolerance is larger by this factor, and from floor to floor none is made smaller than this
+/// strain. Torn soil would else take up to 1e5 sub-steps a call.
+inline constexpr double kFloorTolerance = 100.0, kSmallestOnFloor = 1e-5;
 /// Bounds the work of one call, whatever it is given.
 inline constexpr double kMaxSubSteps = 1e5;
 inline constexpr double kMostStrain = 1.0;
@@ -24,7 +28,8 @@ struct CourseOf {
   PointOf<T> at;
   StrainOf<T> whole;    ///< the increment
   T largest, smallest;  ///< sub-step, as shares of the increment
-  T done, next;         ///< share that is done, and next sub-step
+  T smallest_on_floor;
+  T done, next;  ///< share that is done, and next sub-step
 };
 
 /// The start of an update; `size` is the largest component of the increment.
@@ -34,13 +39,15 @@ inline CourseOf<double> start(const PM4Sand::Task& task, double size) {
   const PM4Sand::State& s = *task.state;
   const double equal = std::ceil(size / task.constants->max_strain_increment * (1.0 - 1e-9));
   const double largest = 1.0 / std::clamp(equal, 1.0, kMaxSubSteps);
-  const double smallest =
-      std::min(largest, std::max(kSmallestIncrement / size, 1.0 / kMaxSubSteps));
+  const auto smallest = [&](double strain) {
+    return std::min(largest, std::max(strain / size, 1.0 / kMaxSubSteps));
+  };
   return {{-0.5 * (sigma[0] + sigma[1]) - s.held_p,
            DeviatorOf<double>{-0.5 * (sigma[0] - sigma[1]), -sigma[3]} - s.held, s.alpha, s.z},
           {-(de[0] + de[1]), {-0.5 * (de[0] - de[1]), -0.5 * de[3]}},
           largest,
-          smallest,
+          smallest(kSmallestIncrement),
+          smallest(kSmallestOnFloor),
           0.0,
           largest};
 }
@@ -67,12 +74,17 @@ template <class T>
   const auto last = r.next >= left * (1.0 - 1e-12);
   const T part = select(last, left, r.next);
   const StrainOf<T> step{part * r.whole.volumetric, part * r.whole.deviator};
-  Trial<T> trial = attempt(soil, s, r.at, step, part <= r.smallest);
-  const T allowed = soil.tolerance * trial.size;
+  // with room for rounding: what is left may be larger than the smallest by a few digits
+  const T small = (1.0 + 1e-9) * r.smallest, small_on_floor = (1.0 + 1e-9) * r.smallest_on_floor;
+  const auto spent = part <= small;
+  const auto torn = r.at.p <= kOnFloor * s.p_min && part <= small_on_floor;
+  Trial<T> trial = attempt(soil, s, r.at, step, spent || torn);
+  const auto lifted = trial.end.p < kFloor * s.p_min;
+  const T allowed = select(lifted, T(kFloorTolerance), T(1.0)) * soil.tolerance * trial.size;
   const T change =
       select(trial.error > T(0.0), clamp(0.8 * sqrt(allowed / trial.error), 0.1, 2.0), T(2.0));
-  const auto taken = !(trial.error > allowed && part > r.smallest);
-  const auto low = settle(soil, s, trial);
+  const auto taken = spent || (torn && lifted) || !(trial.error > allowed);
+  settle(soil, s, trial);
   s.void_ratio = select(taken, s.void_ratio - soil.void_rate * step.volumetric, s.void_ratio);
   const DeviatorOf<T> dz = trial.end.z - r.at.z;
   const T grown2 = dot(dz, dz);
@@ -85,7 +97,7 @@ template <class T>
   r.done = select(taken, select(last, T(1.0), r.done + part), r.done);
   r.next = select(taken, clamp(part * change, r.smallest, r.largest),
                   max(part * min(change, T(0.8)), r.smallest));
-  return Outcome<decltype(last)>{taken, taken && low, !(r.done < T(1.0))};
+  return Outcome<decltype(last)>{taken, taken && lifted, !(r.done < T(1.0))};
 }
 
 /// Lane `lane` of a struct of T, a struct of double: reads and writes it.

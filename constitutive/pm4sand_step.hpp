@@ -187,13 +187,16 @@ Trial<T> attempt(const SoilOf<T>& c, StateOf<T>& s, const PointOf<T>& at, const 
   return r;
 }
 
+/// The floor of mean stress over p_min.
+inline constexpr double kFloor = 0.2;
+inline constexpr double kOnFloor = kFloor * (1.0 + 1e-9);
+
 /// Ends a sub-step: the floor of mean stress, the stress on the yield surface and within the
-/// bounding surface. Returns where the floor was met.
+/// bounding surface.
 template <class T>
-auto settle(const SoilOf<T>& c, const StateOf<T>& s, Trial<T>& trial) {
+void settle(const SoilOf<T>& c, const StateOf<T>& s, Trial<T>& trial) {
   PointOf<T>& end = trial.end;
-  const auto low = end.p < 0.2 * s.p_min;
-  end.p = select(low, 0.2 * s.p_min, end.p);
+  end.p = max(end.p, kFloor * s.p_min);
   // drift: the back-stress ratio is moved so that the stress lies on the yield surface
   const DeviatorOf<T> offset = end.s - end.p * end.alpha;
   const T radius = kRootHalf * c.m * end.p, radius2 = radius * radius;
@@ -210,7 +213,6 @@ auto settle(const SoilOf<T>& c, const StateOf<T>& s, Trial<T>& trial) {
     end.s = select(beyond, (q / sqrt(q2)) * end.s, end.s);
     end.alpha = select(beyond, ((trial.Mb - c.m) / (trial.Mb * end.p)) * end.s, end.alpha);
   }
-  return low;
 }
 
 }  // namespace flowslide::pm4sand

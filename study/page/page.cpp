@@ -55,8 +55,9 @@ std::string readable(const Table& table, const std::string& name) {
 
 class Writer {
  public:
-  Writer(const Plan& plan, const Table& table, const StudyFindings& f)
-      : plan_(plan), table_(table), f_(f) {}
+  Writer(const Plan& plan, const Table& table, const StudyFindings& f,
+         const std::vector<SessionRecord>& sessions)
+      : plan_(plan), table_(table), f_(f), sessions_(sessions) {}
 
   Page write() {
     head();
@@ -278,21 +279,39 @@ class Writer {
     html_ += fmt::format(
         "<h2>How it was computed</h2><p class='soft'>{} stages, each once for all rows that share "
         "it. Study file: {}. How the statistics are defined: docs/theory/study-statistics.md."
-        "</p></body></html>\n",
+        "</p>",
         plan_.nodes.size(), xml_text(plan_.file.filename().string()));
+    if (!sessions_.empty()) cost();
+    html_ += "</body></html>\n";
+  }
+
+  void cost() {
+    html_ +=
+        "<div class='wide'><table><tr><th class='word'>computed from</th><th class='word'>by</th>"
+        "<th class='word'>on</th><th>processors used</th><th>stages</th><th>time [min]</th>"
+        "<th>processor time [min]</th></tr>";
+    for (const SessionRecord& s : sessions_)
+      html_ += fmt::format(
+          "<tr><td class='word'>{}</td><td class='word'>{}</td><td class='word'>{}</td><td>{}</td>"
+          "<td>{}</td><td>{:.1f}</td><td>{:.1f}</td></tr>",
+          xml_text(s.began), xml_text(s.program), xml_text(s.processor), s.threads, s.stages,
+          s.wall_seconds / 60.0, s.processor_seconds / 60.0);
+    html_ += "</table></div>";
   }
 
   const Plan& plan_;
   const Table& table_;
   const StudyFindings& f_;
+  const std::vector<SessionRecord>& sessions_;
   Page page_;
   std::string html_;
 };
 
 }  // namespace
 
-Page make_page(const Plan& plan, const Table& table, const StudyFindings& findings) {
-  return Writer(plan, table, findings).write();
+Page make_page(const Plan& plan, const Table& table, const StudyFindings& findings,
+               const std::vector<SessionRecord>& sessions) {
+  return Writer(plan, table, findings, sessions).write();
 }
 
 }  // namespace flowslide::study

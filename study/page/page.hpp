@@ -1,4 +1,5 @@
 #pragma once
+#include "study/run/session_record.hpp"
 #include "study/table/analysis.hpp"
 
 #include <atomic>
@@ -13,7 +14,9 @@ struct Page {
   std::map<std::string, std::string> figures;  ///< SVG by file name
 };
 
-Page make_page(const Plan& plan, const Table& table, const StudyFindings& findings);
+/// `sessions`: what it cost, in any number.
+Page make_page(const Plan& plan, const Table& table, const StudyFindings& findings,
+               const std::vector<SessionRecord>& sessions = {});
 
 /// table.csv, columns.csv, table.h5, analysis.json, study.html and figures/ in the folder of the
 /// study. Throws FileError, and Interrupted once `stop` is set. In figures/ only those go that an

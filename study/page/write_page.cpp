@@ -53,7 +53,7 @@ void write_tables(const fs::path& folder, const Plan&, const Table& table) {
 void write_page(const fs::path& folder, const Plan& plan, const Table& table,
                 const std::atomic<bool>* stop) {
   const StudyFindings findings = analyse(plan, table, stop);
-  const Page page = make_page(plan, table, findings);
+  const Page page = make_page(plan, table, findings, read_sessions(folder));
   const fs::path figures = folder / "figures", analysis = folder / "analysis.json";
   std::error_code error;
   if (fs::is_symlink(fs::symlink_status(figures, error)))

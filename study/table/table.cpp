@@ -20,6 +20,33 @@ constexpr std::array<std::string_view, 5> kFirst{"runout_m", "runout_mass_quanti
                                                  "liquefaction_depth_pond_m",
                                                  "liquefaction_depth_crest_m", "transfer_time_s"};
 
+/// Facts under one name each: those of a group as `crest.freeboard_m`, of a list whose items have
+/// names as `regions.lower dam.failed_share`. Other lists have no place in a table.
+void flatten(const std::string& name, const Json& value,
+             std::vector<std::pair<std::string, Json>>& out) {
+  const std::string inside = name.empty() ? "" : name + ".";
+  if (value.is_object()) {
+    for (const auto& [key, item] : value.items()) flatten(inside + key, item, out);
+  } else if (value.is_array()) {
+    for (const Json& item : value)
+      if (item.is_object() && item.contains("name") && item["name"].is_string())
+        for (const auto& [key, part] : item.items())
+          if (key != "name")
+            flatten(inside + item["name"].get<std::string>() + "." + key, part, out);
+  } else if (value.is_number() || value.is_boolean() || value.is_string()) {
+    out.emplace_back(name, value);
+  }
+}
+
+std::vector<std::pair<std::string, Json>> flat_facts(const std::string& text) {
+  std::vector<std::pair<std::string, Json>> facts;
+  flatten("", Json::parse(text, nullptr, false), facts);
+  std::erase_if(facts, [](const auto& fact) {
+    return std::find(kTimes.begin(), kTimes.end(), fact.first) != kTimes.end();
+  });
+  return facts;
+}
+
 std::string number_text(double value) { return fmt::format("{}", value); }
 
 class Builder {
@@ -117,10 +144,7 @@ class Builder {
       for (const std::size_t n : plan_.rows[r].nodes) {
         const auto& finished = progress_.node(n).finished;
         if (!finished) continue;
-        const Json facts = Json::parse(finished->record.facts, nullptr, false);
-        for (const auto& [name, value] : facts.items()) {
-          if (std::find(kTimes.begin(), kTimes.end(), name) != kTimes.end()) continue;
-          if (!value.is_number() && !value.is_boolean() && !value.is_string()) continue;
+        for (const auto& [name, value] : flat_facts(finished->record.facts)) {
           auto [it, is_new] = columns.try_emplace(name);
           Column& c = it->second;
           if (is_new) {

@@ -52,6 +52,33 @@ TEST_CASE("a study runs, is then done, and tells of itself", "[cli]") {
   CHECK(call(scratch, "study run s.yaml --quiet").out.empty());
 }
 
+TEST_CASE("a study keeps what it cost, and where it ran", "[cli]") {
+  const Scratch scratch;
+  write_study(scratch);
+  REQUIRE(call(scratch, "study run s.yaml --jobs 2 --threads 2").code == 0);
+  const auto sessions = [&] {
+    std::vector<std::string> texts;
+    for (const auto& entry : std::filesystem::directory_iterator(scratch / "runs/s/sessions"))
+      texts.push_back(read_text_file(entry.path()));
+    return texts;
+  };
+  REQUIRE(sessions().size() == 1);
+  const auto session = nlohmann::json::parse(sessions()[0]);
+  CHECK(session["stages"] == 2);
+  CHECK(session["jobs"] == 2);
+  const double wall = session["wall_seconds"], used = session["processor_seconds"];
+  CHECK(wall > 0.0);
+  // Starting a process takes milliseconds; two of them and their parent use three processors.
+  CHECK(used > 1e-3);
+  CHECK(used < 3.0 * wall + 0.1);
+  CHECK_THAT(session["began"].get<std::string>(), Catch::Matches("20..-..-..T..:..:..Z"));
+  CHECK_THAT(read_text_file(scratch / "runs/s/study.html"),
+             Contains(session["began"].get<std::string>()));
+  // What computes nothing costs nothing.
+  REQUIRE(call(scratch, "study run s.yaml").code == 0);
+  CHECK(sessions().size() == 1);
+}
+
 TEST_CASE("a study tells programs as JSON", "[cli]") {
   const Scratch scratch;
   write_study(scratch);

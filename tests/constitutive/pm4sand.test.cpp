@@ -249,6 +249,44 @@ TEST_CASE("PM4Sand survives being pulled apart", "[pm4sand]") {
   CHECK(back.stress[0] < 100.0 * r.stress[0]);
 }
 
+TEST_CASE("PM4Sand torn open takes few sub-steps, and bears load again all the same", "[pm4sand]") {
+  const auto torn = [](double tolerance) {
+    PM4Sand::Params p = pm4sand_tailings();
+    p.tolerance = tolerance;
+    p.max_strain_increment = 1e-4;
+    Trial t{.c = PM4Sand::constants(p)};
+    int sub_steps = 0;
+    const auto go = [&](double volumetric, double gamma) {
+      const auto r = PM4Sand::update(t.c, t.state, t.stress,
+                                     {{0.5 * volumetric, 0.5 * volumetric, 0.0, gamma}});
+      t.stress = r.stress;
+      t.state = r.state;
+      return r.sub_steps;
+    };
+    go(5e-3, 1e-3);  // from 100 kPa to the floor
+    for (int i = 0; i < 40; ++i) sub_steps += go(3e-4, i % 10 < 5 ? 3e-4 : -3e-4);
+    const Stress<2> open = t.stress;
+    for (int i = 0; i < 40; ++i) go(-2e-5, 1e-5);
+    return std::tuple(sub_steps / 40, open, t.stress);
+  };
+  const auto [few, open, closed] = torn(1e-4);
+  const auto [many, open_exact, closed_exact] = torn(1e-6);
+  // without the tolerance of the floor 977
+  CHECK(few < 400);
+  CHECK(many > few);
+  CHECK(-0.5 * (open[0] + open[1]) == Approx(-0.5 * (open_exact[0] + open_exact[1])).epsilon(0.01));
+  CHECK(closed[1] == Approx(closed_exact[1]).epsilon(0.1));
+}
+
+TEST_CASE("PM4Sand ends where every sub-step is the smallest", "[pm4sand]") {
+  // three smallest ones, of which the last is longer by rounding
+  PM4Sand::Params p = pm4sand_tailings();
+  p.tolerance = 1e-16;
+  Trial t{.c = PM4Sand::constants(p)};
+  t.advance(1e-4);
+  CHECK(t.shear(3e-9).sub_steps == 3);
+}
+
 TEST_CASE("PM4Sand hands on what is not a number, and ends", "[pm4sand]") {
   const Trial t;
   CHECK(std::isnan(t.shear(kUnset).stress[3]));

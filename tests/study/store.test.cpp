@@ -1,8 +1,10 @@
 #include "core/files.hpp"
 #include "study/run/clean.hpp"
 #include "study/run/locks.hpp"
+#include "study/run/session_record.hpp"
 #include "study/run/tidy.hpp"
 #include "tests/study/study_bench.hpp"
+#include "workflows/engine/sealed_json.hpp"
 
 using namespace flowslide;
 using namespace flowslide::study;
@@ -194,4 +196,21 @@ TEST_CASE("What the store takes is known without walking through it for each sta
   CHECK(left == on_disk());
   bench.run(bench.plan("  set: {stages.sum.with.factor: 3}\n  disk: 1 GB\n"));
   CHECK(Tidier(plan, store, locks).tidy(bench.progress(plan)) == on_disk());
+}
+
+TEST_CASE("What a study cost is read back in order, without what is damaged", "[study]") {
+  const Scratch scratch;
+  CHECK(read_sessions(scratch.path()).empty());
+  SessionLog log(scratch.path(),
+                 {.began = {}, .program = "a", .processor = "b", .processors = 4, .threads = 2});
+  log.stage_made();
+  log.stage_made();
+  scratch.write("sessions/2000.json", seal({{"schema", 1}, {"began", "2000"}}));
+  scratch.write("sessions/2001.json", "{");
+  const std::vector<SessionRecord> sessions = read_sessions(scratch.path());
+  REQUIRE(sessions.size() == 1);
+  CHECK(sessions[0].stages == 2);
+  CHECK(sessions[0].processor == "b");
+  CHECK(sessions[0].threads == 2);
+  CHECK(sessions[0].wall_seconds >= 0.0);
 }

@@ -105,6 +105,31 @@ TEST_CASE("Numbers that hang on the machine are not in the table", "[study]") {
   CHECK(without_unit("particles") == "particles");
 }
 
+TEST_CASE("Facts in groups and of named things are columns too", "[study]") {
+  StudyBench bench;
+  const Plan plan = bench.plan("");
+  bench.run(plan);
+  const Store store(bench.folder);
+  const StudyState before = bench.progress(plan);
+  for (std::size_t n = 0; n < plan.nodes.size(); ++n) {
+    if (plan.nodes[n].stage.name != "sum") continue;
+    Finished f = *store.finished("sum", before.node(n).key);
+    f.record.facts = R"({"crest": {"x_m": -20, "outward": {"both_m": 1.5, "flow_m": null}},
+      "regions": [{"name": "lower dam", "failed_share": 0.25}, {"failed_share": 1}, 7],
+      "warnings": ["one"], "name": "word"})";
+    store.write(f);
+  }
+  const Table table = make_table(plan, bench.progress(plan));
+  REQUIRE(table.find("crest.outward.both_m"));
+  CHECK(table.find("crest.outward.both_m")->number == std::vector<double>{1.5});
+  CHECK(table.find("crest.outward.both_m")->unit == "m");
+  REQUIRE(table.find("regions.lower dam.failed_share"));
+  CHECK(table.find("regions.lower dam.failed_share")->number == std::vector<double>{0.25});
+  CHECK(table.find("name")->text == std::vector<std::string>{"word"});
+  for (const char* none : {"crest.outward.flow_m", "regions.failed_share", "warnings", "sum"})
+    CHECK_FALSE(table.find(none));
+}
+
 TEST_CASE("A column that is not there is refused by its name", "[study]") {
   StudyBench bench;
   const Plan plan = bench.plan("  analysis: {results: [runout]}\n");

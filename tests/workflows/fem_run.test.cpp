@@ -1,3 +1,5 @@
+#include "workflows/stages/fem_run.hpp"
+
 #include "model/history.hpp"
 #include "model/zone.hpp"
 #include "tests/support/scratch.hpp"
@@ -136,6 +138,44 @@ TEST_CASE("a shaking that ends before its motion has shaken is warned about", "[
   };
   CHECK_THAT(warnings("0.25 s"), Contains("shake: end: the shaking ends at 0.25 s, but 95 %"));
   CHECK_THAT(warnings("null"), !Contains("95 %"));
+}
+
+TEST_CASE("a shaking can end where its motion has shaken", "[workflows]") {
+  // Half a second of rest, ten seconds of one g to and fro, and rest again: the Arias intensity
+  // grows by a tenth each second.
+  GroundMotion motion{.dt = 0.01, .acceleration = std::vector<double>(3001, 0.0), .origin = "box"};
+  for (std::size_t i = 51; i <= 1050; ++i) motion.acceleration[i] = i % 2 == 0 ? 9.81 : -9.81;
+  FemRunConfig config;
+  config.output_interval = 0.25;
+  CHECK_FALSE(end_of(config, motion));
+  config.end_with_motion = EndWithMotionConfig{.arias = 0.5, .after = 0.0};
+  CHECK(*end_of(config, motion) == 5.75);  // half at 5.5 s and a sample's width
+  config.end_with_motion = EndWithMotionConfig{.arias = 0.2, .after = 2.7};
+  CHECK(*end_of(config, motion) == 5.25);
+  config.end_with_motion = EndWithMotionConfig{.arias = 0.995, .after = 60.0};
+  CHECK(*end_of(config, motion) == motion.duration());
+  config.end_with_motion.reset();
+  config.end = 3.0;
+  CHECK(*end_of(config, motion) == 3.0);
+}
+
+TEST_CASE("fem.run follows its motion as it would a time that is typed", "[workflows]") {
+  const Case c;
+  const std::vector<std::string> rule{
+      "stages.shake.with.end=null",
+      "stages.shake.with.end_with_motion={arias: 0.01, after: 0.1 s}"};
+  c.run(kShaking, "run", rule);
+  std::ifstream file(c.scratch / "run/result.json");
+  const double end = nlohmann::json::parse(file)["fem_end_s"].get<double>();
+  CHECK(end < 2.0);
+  const std::vector<std::string> typed{fmt::format("stages.shake.with.end={} s", end)};
+  c.run(kShaking, "typed", typed);
+  const FemHistory a(c.history(kShaking, "run", rule)), b(c.history(kShaking, "typed", typed));
+  REQUIRE(a.times() == b.times());
+  CHECK(a.frame(a.times().size() - 1).displacement == b.frame(b.times().size() - 1).displacement);
+  CHECK_THROWS_WITH(
+      c.load(kShaking, {"stages.shake.with.end_with_motion={arias: 0.5, after: 0 s}"}),
+      Contains("end and end_with_motion: both are given"));
 }
 
 TEST_CASE("a workflow that is interrupted in fem.run continues there", "[workflows]") {

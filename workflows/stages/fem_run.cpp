@@ -11,6 +11,8 @@
 #include "workflows/stages/preview.hpp"
 #include "workflows/stages/stage_list.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include <fmt/format.h>
@@ -41,11 +43,24 @@ StopRule stop_rule(const SectionMesh& section, const FemRunConfig& run) {
           }};
 }
 
+}  // namespace
+
+std::optional<double> end_of(const FemRunConfig& config, const GroundMotion& motion) {
+  if (!config.end_with_motion) return config.end;
+  const EndWithMotionConfig& c = *config.end_with_motion;
+  const double shaken = arias_time(motion, c.arias) + c.after;
+  // A hair's breadth, so that a time that is a state but for rounding is that state.
+  const double states = std::ceil(shaken / config.output_interval - 1e-6);
+  return std::min(std::max(states, 1.0) * config.output_interval, motion.duration());
+}
+
+namespace {
+
 struct FemRun {
   static constexpr std::string_view name = "fem.run";
   static constexpr std::string_view doc =
       "Gravity and shaking of a saturated section, with the finite element method.";
-  static constexpr int version = 4;
+  static constexpr int version = 5;
   static constexpr bool checkpoints = true;
   using Config = FemRunConfig;
   struct Inputs {
@@ -62,6 +77,9 @@ struct FemRun {
   };
   static void check(const Config& config) {
     flowslide::check(config);
+    validate(!config.end || !config.end_with_motion,
+             "end and end_with_motion: both are given (one says when the run ends, the other that "
+             "the motion does) take one of them away");
     if (config.stop_at_transfer) flowslide::check(*config.stop_at_transfer);
   }
   static std::any preview(const Config& config, const Previews& in, Findings& found) {
@@ -83,10 +101,11 @@ struct FemRun {
       }
     return p;
   }
-  static StageResult run(const RunContext& context, const Config& config, const Inputs& in,
+  static StageResult run(const RunContext& context, Config config, const Inputs& in,
                          const Outputs& out) {
     const SectionMesh section = read_section_mesh(in.mesh.path);
     const GroundMotion motion = read_motion_file(in.motion.path);
+    if (config.end_with_motion) config.end = end_of(config, motion);
     const FemFacts f =
         run_fem(section, motion, config, {out.history.path, context.folder / "checkpoint"},
                 context.threads, context.progress, stop_rule(section, config));

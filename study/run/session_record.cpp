@@ -1,0 +1,116 @@
+#include "study/run/session_record.hpp"
+
+#include "core/check.hpp"
+#include "core/files.hpp"
+#include "workflows/engine/sealed_json.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <ctime>
+#include <fstream>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+namespace fs = std::filesystem;
+
+namespace flowslide::study {
+namespace {
+
+constexpr int kSchema = 1;
+constexpr std::string_view kFolder = "sessions";
+
+double seconds_of(const timeval& t) {
+  return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+}
+
+/// User and system time of this process and of those that it has waited for [s].
+double processor_time() {
+  double sum = 0.0;
+  for (const auto who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage usage{};
+    if (::getrusage(who, &usage) == 0)
+      sum += seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
+  }
+  return sum;
+}
+
+double clock_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  ::gmtime_r(&now, &parts);
+  std::array<char, 32> text{};
+  return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts)};
+}
+
+SessionRecord from(const Json& j) {
+  return {.began = j.at("began"),
+          .program = j.at("program"),
+          .processor = j.at("processor"),
+          .processors = whole_number(j.at("processors")),
+          .jobs = whole_number(j.at("jobs")),
+          .threads = whole_number(j.at("threads")),
+          .stages = whole_number(j.at("stages")),
+          .wall_seconds = j.at("wall_seconds"),
+          .processor_seconds = j.at("processor_seconds")};
+}
+
+}  // namespace
+
+SessionLog::SessionLog(fs::path folder, SessionRecord what)
+    : record_(std::move(what)), began_(clock_seconds()), used_before_(processor_time()) {
+  record_.began = utc_now();
+  path_ = std::move(folder) / kFolder / fmt::format("{}-{}.json", record_.began, ::getpid());
+}
+
+void SessionLog::stage_made() {
+  ++record_.stages;
+  record_.wall_seconds = clock_seconds() - began_;
+  record_.processor_seconds = processor_time() - used_before_;
+  make_folders(path_.parent_path());
+  write_file(path_, seal({{"schema", kSchema},
+                          {"began", record_.began},
+                          {"program", record_.program},
+                          {"processor", record_.processor},
+                          {"processors", record_.processors},
+                          {"jobs", record_.jobs},
+                          {"threads", record_.threads},
+                          {"stages", record_.stages},
+                          {"wall_seconds", record_.wall_seconds},
+                          {"processor_seconds", record_.processor_seconds}}));
+}
+
+std::vector<SessionRecord> read_sessions(const fs::path& folder) {
+  std::vector<SessionRecord> sessions;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder / kFolder, error)) {
+    if (entry.path().extension() != ".json") continue;
+    try {
+      if (const auto json = read_sealed(entry.path()).json) sessions.push_back(from(*json));
+    } catch (const Json::exception&) {
+      continue;
+    } catch (const Error&) {
+      continue;
+    }
+  }
+  std::sort(sessions.begin(), sessions.end(),
+            [](const auto& a, const auto& b) { return a.began < b.began; });
+  return sessions;
+}
+
+std::string processor_name() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("model name"))
+      if (const std::size_t colon = line.find(": "); colon != std::string::npos)
+        return line.substr(colon + 2);
+  return "unknown";
+}
+
+}  // namespace flowslide::study
