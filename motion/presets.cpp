@@ -7,20 +7,32 @@ namespace flowslide {
 namespace {
 
 // Period and duration are those of Table 4; pgv and masi at 0.3 g are given in the paper's text for
-// two motions, and were computed from the public record of the third. Where they are known, seed
-// and bandwidth are the best of 1 to 25 and of 0.6 and 1; elsewhere they are the default.
-// Landers: main shaking of 5 s; Ridgecrest: strong phase at 17 to 19 s, and of seeds 1 to 25 that
-// with a PGV of 20 to 30 cm/s whose energy is nearest to a record's (docs/theory/ground-motion.md).
+// two motions, and were computed from the public record of the third. Seed, bandwidth and strong
+// phase are chosen so that PGV, MASI and energy are those of a record:
+// docs/theory/ground-motion.md, "Presets". Landers: main shaking of 5 s; Ridgecrest: strong phase
+// at 17 to 19 s.
 constexpr std::array<MotionPreset, 10> kPresets{{
     {.name = "big-bear-deer-can",
      .record = "1992 Big Bear, Rancho Cucamonga - Deer Can 090",
      .tm = 0.40,
-     .d5_95 = 25.4},
+     .d5_95 = 25.4,
+     .seed = 6,
+     .strong_begin = 13.2,
+     .strong_end = 18.0},
     {.name = "cape-mendocino-eureka",
      .record = "1992 Cape Mendocino, Eureka - Myrtle & West 000",
      .tm = 0.75,
-     .d5_95 = 20.6},
-    {.name = "corinth", .record = "1981 Gulf of Corinth, Corinth L", .tm = 0.70, .d5_95 = 15.4},
+     .d5_95 = 20.6,
+     .seed = 18,
+     .strong_begin = 10.9,
+     .strong_end = 14.8},
+    {.name = "corinth",
+     .record = "1981 Gulf of Corinth, Corinth L",
+     .tm = 0.70,
+     .d5_95 = 15.4,
+     .seed = 1,
+     .strong_begin = 8.4,
+     .strong_end = 11.3},
     {.name = "hector-mine-amboy",
      .record = "1999 Hector Mine, Amboy 090",
      .tm = 0.77,
@@ -29,19 +41,31 @@ constexpr std::array<MotionPreset, 10> kPresets{{
      .masi = 6.77,
      .seed = 17,
      .bandwidth = 1.0},
-    {.name = "irpinia-brienza", .record = "1980 Irpinia, Brienza 000", .tm = 0.31, .d5_95 = 13.2},
+    {.name = "irpinia-brienza",
+     .record = "1980 Irpinia, Brienza 000",
+     .tm = 0.31,
+     .d5_95 = 13.2,
+     .seed = 23,
+     .strong_begin = 7.3,
+     .strong_end = 9.8},
     {.name = "landers-yermo",
      .record = "1992 Landers, Yermo Fire Station 000",
      .tm = 0.66,
      .d5_95 = 20.1,
-     .rise = 0.8},
+     .seed = 17,
+     .bandwidth = 1.0,
+     .strong_begin = 10.6,
+     .strong_end = 15.6},
     {.name = "loma-prieta-lick",
      .record = "1989 Loma Prieta, UCSC Lick Observatory 090",
      .tm = 0.22,
      .d5_95 = 9.5,
      .pgv = 0.160,
      .masi = 3.35,
-     .seed = 9},
+     .seed = 19,
+     .bandwidth = 1.0,
+     .strong_begin = 5.6,
+     .strong_end = 7.4},
     {.name = "ridgecrest-china-lake",
      .record = "2019 Ridgecrest, CIT China Lake 090",
      .tm = 0.39,
@@ -53,15 +77,22 @@ constexpr std::array<MotionPreset, 10> kPresets{{
     {.name = "san-fernando-athenaeum",
      .record = "1971 San Fernando, CIT Athenaeum 090",
      .tm = 0.56,
-     .d5_95 = 14.5},
+     .d5_95 = 14.5,
+     .seed = 3,
+     .bandwidth = 1.0,
+     .strong_begin = 8.0,
+     .strong_end = 10.8},
     {.name = "tabas-dayhook",
      .record = "1978 Tabas, Dayhook L",
      .tm = 0.33,
      .d5_95 = 11.3,
      .pgv = 0.2065,
      .masi = 5.38,
-     .seed = 23,
-     .bandwidth = 1.0},
+     .seed = 18,
+     .bandwidth = 1.0,
+     .strong_begin = 6.4,
+     .strong_end = 8.5,
+     .strong_ratio = 0.7},
 }};
 
 }  // namespace
@@ -83,7 +114,6 @@ SyntheticConfig preset_config(std::string_view name, double pga) {
   config.d5_95 = preset->d5_95;
   config.seed = preset->seed;
   config.bandwidth = preset->bandwidth;
-  config.rise = preset->rise;
   config.lead = preset->lead;
   config.strong_begin = preset->strong_begin;
   config.strong_end = preset->strong_end;

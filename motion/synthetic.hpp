@@ -46,7 +46,6 @@ struct MotionPreset {
   double masi = kUnset;   ///< at 0.3 g [m/s]; NaN where the paper gives none
   int seed = 1;
   double bandwidth = 0.6;
-  double rise = 2.0;
   double lead = 1.0;                                  ///< [s]
   std::optional<double> strong_begin = std::nullopt;  ///< [s]
   std::optional<double> strong_end = std::nullopt;    ///< [s]

@@ -143,6 +143,8 @@ std::string settings_html(const std::vector<ToldStage>& stages) {
 
 }  // namespace
 
+std::string_view page_style() { return kPageStyle; }
+
 std::string report_page(const ReportInputs& in, const ReportConfig& config,
                         const ReportFacts& facts, const FinalState& end) {
   const PageData data = page_data(in, config, facts, end);

@@ -2,6 +2,7 @@
 #include "report/report.hpp"
 
 #include <string>
+#include <string_view>
 
 namespace flowslide {
 
@@ -11,5 +12,8 @@ namespace flowslide {
 /// Throws FileError, InputError, NumericsError.
 std::string report_page(const ReportInputs& inputs, const ReportConfig& config,
                         const ReportFacts& facts, const FinalState& end);
+
+/// Its style sheet, for other pages of the same look.
+std::string_view page_style();
 
 }  // namespace flowslide

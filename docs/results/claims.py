@@ -221,7 +221,7 @@ def n19(s):
             and isinstance(r["regions.upper dam.failed_share"], float)]
     fails = lambda r: (r["regions.upper dam.failed_share"] > 0.5
                        and r["regions.lower dam.failed_share"] < 0.5)
-    return share(rows, fails) if rows else Judged()
+    return share(rows, fails) if whole(s) else Judged()
 
 
 def n20(s):

@@ -74,6 +74,9 @@ def cost_text(cost, rows):
     failed = sum(r["state"] == "failed" for r in rows)
     done = sum(r["state"] == "done" for r in rows)
     text = f"{done} rows done, {failed} failed, {len(rows) - done - failed} not run."
+    cells = sorted({(r[study_rows.CELL], r["variant"]) for r in rows if r[study_rows.CELL]})
+    if cells:
+        text += " Cells of the flow: " + ", ".join(f"{c} ({v})" for c, v in cells) + "."
     if not cost.get("sessions"):
         return text + " What the study cost is not recorded."
     return (f"{text} Begun {cost['began']}; {', '.join(cost['programs'])}; "

@@ -20,6 +20,7 @@ COLUMNS = [
     "regions.lower dam.failed_share", "regions.upper dam.failed_share", "key:shake", "key:flow",
 ]
 CURVE_COLUMNS = ["depth_pond_at_17_s_m", "deepest_at_s"]
+CELL = "flow_cell"  # a setting, as the workflow has it
 FLOW = ("runout", "deepest_failed", "regions.", "outcome")  # what the flow finds, not the shaking
 
 
@@ -32,8 +33,17 @@ def gather(study):
         out = {name: row.get(name, "") for name in COLUMNS}
         curve = study / "stages/report" / row.get("key:report", "") / "report/zone.csv"
         out |= curve_facts(curve) if curve.is_file() else dict.fromkeys(CURVE_COLUMNS, "")
+        out[CELL] = cell_of(study / "stages/flow" / (row.get("key:flow", "") + ".json"))
         kept.append(out)
     return kept
+
+
+def cell_of(record):
+    """Cell size of a flow, from what is kept of its settings."""
+    if not record.is_file():
+        return ""
+    settings = json.loads(record.read_text(encoding="utf-8"))["record"]["settings"]
+    return next((s.split("= ", 1)[1] for s in settings if s.startswith("cell = ")), "")
 
 
 def curve_facts(path):
@@ -83,7 +93,7 @@ class Study:
         for row in self.rows:
             for name, text in row.items():
                 try:
-                    row[name] = float(text)
+                    row[name] = round(float(text), 9)  # rows of nodes lie at 10 m, not beside it
                 except ValueError:
                     pass
 
@@ -181,7 +191,7 @@ def read_rows(path):
 
 def write_rows(path, rows):
     with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, COLUMNS + CURVE_COLUMNS, lineterminator="\n")
+        writer = csv.DictWriter(file, [*COLUMNS, *CURVE_COLUMNS, CELL], lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
 

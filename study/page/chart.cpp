@@ -122,7 +122,7 @@ Svg draw(const ScatterChart& chart) {
   return svg;
 }
 
-Svg draw_exceedance(const Exceedance& curve, const std::string& label) {
+Svg draw_exceedance(const Exceedance& curve, double usual_scatter, const std::string& label) {
   Svg svg(kWidth, kHeight);
   if (curve.value.size() < 2) return svg;
   const Frame frame(std::min(0.0, curve.value.front()), curve.value.back(), 0.0, 1.0);
@@ -141,6 +141,11 @@ Svg draw_exceedance(const Exceedance& curve, const std::string& label) {
   }
   svg.polygon(above + below, "band");
   svg.polyline(line, "curve");
+  if (is_set(usual_scatter)) {
+    const double length = frame.x(usual_scatter) - frame.x(0.0);
+    svg.line(kLeft, 14.0, kLeft + length, 14.0, "fit");
+    svg.text(kLeft + length + 6.0, 18.0, "numerical scatter", "start");
+  }
   return svg;
 }
 

@@ -28,7 +28,7 @@ struct ScatterChart {
 Svg draw(const ScatterChart& chart);
 
 /// Share of rows above a value.
-Svg draw_exceedance(const Exceedance& curve, const std::string& label);
+Svg draw_exceedance(const Exceedance& curve, double usual_scatter, const std::string& label);
 
 /// Bars from the low to the high end of each input, the longest first.
 Svg draw_tornado(std::vector<Swing> swings, double usual_scatter, const std::string& label);

@@ -1,11 +1,15 @@
 #include "study/page/page.hpp"
 
 #include "core/xml_text.hpp"
+#include "report/page.hpp"
 #include "study/page/chart.hpp"
+#include "study/page/labels.hpp"
+#include "study/page/words.hpp"
 #include "study/statistics/summary.hpp"
 #include "workflows/engine/program_version.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
@@ -13,86 +17,85 @@
 namespace flowslide::study {
 namespace {
 
+/// On top of the style of a single run's page: charts drawn as SVG, and wide tables.
 constexpr std::string_view kStyle = R"(
-:root{--paper:#fff;--ink:#1f2328;--soft:#57606a;--line:#d8dee4;--grid:#eceff2;--a:#1d4ed8;--b:#c2410c;
---c:#15803d;--d:#7e22ce;--e:#a16207;--f:#0e7490}
-@media(prefers-color-scheme:dark){:root{--paper:#0d1117;--ink:#e6edf3;--soft:#9aa4af;--line:#30363d;
---grid:#1d232b;--a:#7aa2ff;--b:#ff9a5c;--c:#5fd38a;--d:#c99bff;--e:#e2b93b;--f:#4cc9d8}}
-*{box-sizing:border-box}body{margin:0 auto;max-width:72rem;padding:1.5rem;background:var(--paper);
-color:var(--ink);font:16px/1.5 system-ui,sans-serif}h1{font-size:1.7rem;margin:0 0 .3rem}
-h2{font-size:1.25rem;margin:2.2rem 0 .6rem}p,li{max-width:46rem}.soft{color:var(--soft)}
-.figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,26rem),1fr));gap:1rem}
-figure{margin:0;border:1px solid var(--line);border-radius:8px;padding:.6rem}
-figcaption{font-size:.86rem;color:var(--soft);padding:.3rem .2rem 0}svg{width:100%;height:auto;display:block}
-svg text{font:12px system-ui,sans-serif;fill:var(--soft)}svg .head{font-weight:600;fill:var(--ink)}
-.axis,.bar{stroke:var(--soft)}.grid{stroke:var(--grid)}.fit{stroke:var(--b);fill:none;stroke-width:2}
-.curve{stroke:var(--a);fill:none;stroke-width:2}.band{fill:var(--a);fill-opacity:.13}
-.s0{fill:var(--a)}.s1{fill:var(--b)}.s2{fill:var(--c)}.s3{fill:var(--d)}.s4{fill:var(--e)}.s5{fill:var(--f)}
-circle{fill-opacity:.75}.low{fill:var(--f)}.high{fill:var(--b)}
-.wide{overflow-x:auto}table{border-collapse:collapse;font-size:.86rem;font-variant-numeric:tabular-nums}
-th,td{padding:.25rem .6rem;border-bottom:1px solid var(--line);text-align:right;white-space:nowrap}
-th{text-align:right;font-weight:600;position:sticky;top:0;background:var(--paper)}
-td.word,th.word{text-align:left}.failed{color:var(--b)}
-@media print{body{max-width:none;padding:0}figure{break-inside:avoid}})";
-
-std::string short_number(double v) { return is_set(v) ? fmt::format("{:.3g}", v) : "-"; }
-
-std::string interval(const Estimate& e) {
-  if (!is_set(e.value)) return "-";
-  if (!is_set(e.low)) return short_number(e.value);
-  return fmt::format("{} ({} to {})", short_number(e.value), short_number(e.low),
-                     short_number(e.high));
-}
-
-std::string readable(const Table& table, const std::string& name) {
-  std::string text = name;
-  const Column* c = table.find(name);
-  const std::string unit = c ? c->unit : unit_in_name(name);
-  if (c && c->role == Role::found) text = without_unit(name);
-  std::replace(text.begin(), text.end(), '_', ' ');
-  return unit.empty() ? text : fmt::format("{} [{}]", text, unit);
-}
+.figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,26rem),1fr));gap:1rem;
+margin:0 0 1rem}figure{margin:0;border:1px solid var(--rule);padding:.6rem}
+figcaption{font-size:.86rem;color:var(--soft);padding:.3rem .2rem 0}
+figure svg{width:100%;height:auto;display:block}
+svg text{font:12px var(--sans);fill:var(--soft)}svg .head{font-weight:600;fill:var(--ink)}
+.axis,.bar{stroke:var(--soft)}svg .grid{stroke:var(--wash)}.fit{stroke:var(--red);fill:none;stroke-width:2}
+.curve{stroke:var(--blue);fill:none;stroke-width:2}.band{fill:var(--blue);fill-opacity:.13}
+.s0{fill:var(--blue)}.s1{fill:var(--red)}.s2{fill:var(--green)}.s3{fill:var(--purple)}
+.s4{fill:var(--orange)}.s5{fill:var(--sky)}circle{fill-opacity:.75}.low{fill:var(--sky)}
+.high{fill:var(--red)}.wide{overflow-x:auto;margin:0 0 1rem}
+.wide th,.wide td{padding:.25rem .9rem .25rem 0;text-align:right;white-space:nowrap}
+.wide td.word,.wide th.word{text-align:left}.failed{color:var(--warn);font-weight:600}
+.block{break-inside:avoid}.block h3{margin-top:.4rem}
+.two{display:grid;grid-template-columns:1fr 1fr;gap:.6rem}
+.two iframe{width:100%;height:80vh;border:1px solid var(--rule);background:var(--wash)}
+@media(max-width:52rem){.two{grid-template-columns:1fr}.two iframe{height:60vh}}
+@media print{figure{break-inside:avoid}.two,#side-by-side{display:none}details{display:block}})";
 
 class Writer {
  public:
-  Writer(const Plan& plan, const Table& table, const StudyFindings& f,
-         const std::vector<SessionRecord>& sessions)
-      : plan_(plan), table_(table), f_(f), sessions_(sessions) {}
+  Writer(const Plan& plan, const Table& table, const StudyFindings& f, const StudyAbout& about)
+      : plan_(plan), table_(table), f_(f), about_(about) {}
 
   Page write() {
     head();
+    html_ += warnings(table_) + judgement(plan_, table_, f_);
     answer();
     figures();
     relations();
     comparisons();
     rows();
+    side_by_side();
     end();
     page_.html = std::move(html_);
     return std::move(page_);
   }
 
  private:
+  void open(const std::string& id, const std::string& heading) {
+    html_ += fmt::format("<section id='{}'><h2>{}</h2>", id, xml_text(heading));
+  }
+  void close() { html_ += "</section>"; }
+
   void head() {
     html_ += fmt::format(
         "<!doctype html><html lang='en'><head><meta charset='utf-8'><meta name='viewport' "
-        "content='width=device-width,initial-scale=1'><title>{0}</title><style>{1}</style></head>"
-        "<body><h1>{0}</h1>",
-        xml_text(plan_.name), kStyle);
-    if (!plan_.description.empty()) html_ += fmt::format("<p>{}</p>", xml_text(plan_.description));
+        "content='width=device-width,initial-scale=1'><title>{0}</title><style>{1}{2}</style>"
+        "</head><body><a class='skip' href='#judgement'>To the answer</a><header><h1>{0}</h1>",
+        xml_text(plan_.name), page_style(), kStyle);
+    std::string meta = xml_text(program_version());
+    if (!about_.sessions.empty())
+      meta = fmt::format("{} &middot; {}", xml_text(about_.sessions.back().began.substr(0, 10)),
+                         xml_text(about_.sessions.back().program));
+    html_ += fmt::format("<p class='meta'>{}</p>", meta);
     std::size_t failed = 0, open = 0;
     for (const std::string& s : table_.find("state")->text) {
       failed += s == "failed";
       open += s == "open";
     }
-    html_ += fmt::format("<p class='soft'>{} rows", plan_.rows.size());
+    html_ += fmt::format("<div class='lead'><p>{}</p><p>{} rows", xml_text(plan_.description),
+                         plan_.rows.size());
     if (failed > 0) html_ += fmt::format(", <span class='failed'>{} failed</span>", failed);
     if (open > 0) html_ += fmt::format(", {} still to be computed", open);
-    html_ += fmt::format(". Written by {}.</p>", xml_text(program_version()));
+    html_ += ".</p></div>" + cards(plan_, table_, f_) + "</header><nav>";
+    for (const auto& [id, name] :
+         {std::pair{"judgement", "The answer"}, std::pair{"results", "Results"},
+          std::pair{"charts", "Charts"}, std::pair{"relations", "What it hangs on"},
+          std::pair{"rows", "All rows"}, std::pair{"side-by-side", "Two runs"},
+          std::pair{"cost", "How it was computed"}})
+      html_ += fmt::format("<a href='#{}'>{}</a>", id, name);
+    html_ += "</nav><main>";
   }
 
   void answer() {
+    open("results", "What comes out");
     html_ +=
-        "<h2>What comes out</h2><div class='wide'><table><tr><th class='word'>result</th>"
+        "<div class='wide'><table><tr><th class='word'>result</th>"
         "<th>median</th><th>5 to 95 % of the rows</th><th>spread from the inputs</th>"
         "<th>numerical scatter</th><th>repeated</th></tr>";
     for (std::size_t i = 0; i < f_.results.size(); ++i) {
@@ -108,26 +111,12 @@ class Writer {
           s.repeated);
     }
     html_ +=
-        "</table></div><p class='soft'>Spread and scatter are standard deviations. The scatter "
+        "</table></div><p class='note'>Spread and scatter are standard deviations. The scatter "
         "is what disturbances leave that mean nothing to the dam: a difference between two rows "
         "that is not larger is none.</p><ul>";
-    for (const Threshold& t : f_.thresholds) threshold(t);
+    for (const Threshold& t : f_.thresholds) html_ += threshold_sentence(table_, t);
     html_ += "</ul>";
-  }
-
-  void threshold(const Threshold& t) {
-    if (!is_set(t.ramp.breach.value)) return;
-    const std::string x = xml_text(readable(table_, t.x)), y = xml_text(readable(table_, t.y));
-    const bool begins = t.ramp.no_breach <= kMostWithout,
-               ends = t.ramp.no_saturation <= kMostWithout;
-    html_ += fmt::format("<li>{} against {}: ", y, x);
-    html_ += begins ? fmt::format("nothing below {}; ", interval(t.ramp.breach))
-                    : "no value of it below which there is nothing; ";
-    html_ += ends ? fmt::format("no growth beyond {}, at {}. ", interval(t.ramp.saturation),
-                                interval(t.ramp.plateau))
-                  : "no value of it beyond which the growth stops. ";
-    html_ += fmt::format("(ramp R&sup2; {}, straight line {})</li>", short_number(t.ramp.r2),
-                         short_number(t.ramp.line_r2));
+    close();
   }
 
   /// The input by which dots are coloured: few values, and not what the chart is drawn over.
@@ -184,32 +173,65 @@ class Writer {
                            readable(table_, r.x), interval(r.spearman)));
   }
 
+  /// Relations of a result, those with intermediate results first, the strongest of them first.
+  [[nodiscard]] std::vector<const Relation*> strongest(const std::string& result) const {
+    std::vector<const Relation*> found;
+    for (const Relation& r : f_.relations)
+      if (r.y == result) found.push_back(&r);
+    const auto strength = [](const Relation* r) {
+      return is_set(r->spearman.value) ? std::abs(r->spearman.value) : -1.0;
+    };
+    std::stable_sort(found.begin(), found.end(), [&](const Relation* a, const Relation* b) {
+      return strength(a) > strength(b);
+    });
+    return found;
+  }
+
+  void main_figures(std::size_t i, const std::string& label) {
+    const std::string& result = f_.results[i];
+    std::vector<Swing> swings;
+    for (const Swing& s : f_.swings)
+      if (s.result == result) swings.push_back(s);
+    if (!swings.empty())
+      add_figure(result + "-tornado", draw_tornado(swings, f_.scatter[i].numerical, label),
+                 "Mean result at the low and the high end of each input, the others as in the "
+                 "study.");
+    if (f_.exceedance[i].value.size() > 2)
+      add_figure(result + "-exceedance",
+                 draw_exceedance(f_.exceedance[i], f_.scatter[i].numerical, label),
+                 "Share of the rows above a value, with the band that holds the whole curve in "
+                 "95 % of studies. Rows are not equally likely unless they were sampled.");
+  }
+
+  /// What decides stands open, the rest can be opened.
   void figures() {
+    constexpr std::size_t kShown = 4;
+    open("charts", "Charts");
     for (std::size_t i = 0; i < f_.results.size(); ++i) {
-      const std::string& result = f_.results[i];
-      const std::string label = readable(table_, result);
-      html_ += fmt::format("<h2>{}</h2><div class='figures'>", xml_text(label));
-      std::vector<Swing> swings;
-      for (const Swing& s : f_.swings)
-        if (s.result == result) swings.push_back(s);
-      if (!swings.empty())
-        add_figure(result + "-tornado", draw_tornado(swings, f_.scatter[i].numerical, label),
-                   "Mean result at the low and the high end of each input, the others as in the "
-                   "study.");
-      if (f_.exceedance[i].value.size() > 2)
-        add_figure(result + "-exceedance", draw_exceedance(f_.exceedance[i], label),
-                   "Share of the rows above a value, with the band that holds the whole curve in "
-                   "95 % of studies. Rows are not equally likely unless they were sampled.");
-      for (const Relation& r : f_.relations)
-        if (r.y == result) scatter_figure(r, i);
+      const std::string label = readable(table_, f_.results[i]);
+      html_ += i == 0 ? fmt::format("<h3>{}</h3>", xml_text(label))
+                      : fmt::format("<details><summary>{}</summary>", xml_text(label));
+      html_ += "<div class='figures'>";
+      main_figures(i, label);
+      const std::vector<const Relation*> related = strongest(f_.results[i]);
+      for (std::size_t k = 0; k < related.size(); ++k) {
+        if (i == 0 && k == kShown)
+          html_ +=
+              fmt::format("</div><details><summary>{} weaker ones</summary><div class='figures'>",
+                          related.size() - kShown);
+        scatter_figure(*related[k], i);
+      }
       html_ += "</div>";
+      if (i > 0 || related.size() > kShown) html_ += "</details>";
     }
+    close();
   }
 
   void relations() {
     if (f_.relations.empty()) return;
+    open("relations", "What it hangs on");
     html_ +=
-        "<h2>What it hangs on</h2><div class='wide'><table><tr><th class='word'>result</th>"
+        "<div class='wide'><table><tr><th class='word'>result</th>"
         "<th class='word'>against</th><th>rank correlation</th><th>slope</th><th>R&sup2;</th>"
         "<th>rows</th></tr>";
     for (const Relation& r : f_.relations)
@@ -219,14 +241,15 @@ class Writer {
           xml_text(readable(table_, r.y)), xml_text(readable(table_, r.x)), interval(r.spearman),
           interval(r.line.slope), short_number(r.line.r2), r.spearman.rows);
     html_ +=
-        "</table></div><p class='soft'>In brackets: 95 % interval, from resampling the rows."
-        "</p>";
+        "</table></div><p class='note'>In brackets: 95 % interval, from resampling the rows.</p>";
+    close();
   }
 
   void comparisons() {
     if (f_.comparisons.empty() && f_.not_compared.empty()) return;
+    open("variants", "Variants");
     html_ +=
-        "<h2>Variants</h2><div class='wide'><table><tr><th class='word'>result</th>"
+        "<div class='wide'><table><tr><th class='word'>result</th>"
         "<th class='word'>ratio of means</th><th class='word'>where</th><th>ratio</th></tr>";
     for (const Comparison& c : f_.comparisons)
       html_ += fmt::format(
@@ -241,22 +264,49 @@ class Writer {
           xml_text(readable(table_, n.result)), xml_text(f_.variant), xml_text(n.variant),
           xml_text(n.why));
     html_ += "</table></div>";
+    close();
+  }
+
+  [[nodiscard]] bool has_reports() const {
+    return std::any_of(about_.reports.begin(), about_.reports.end(),
+                       [](const std::string& r) { return !r.empty(); });
+  }
+
+  void side_by_side() {
+    if (!has_reports()) return;
+    open("side-by-side", "Two runs side by side");
+    html_ +=
+        "<p>Choose <b>left</b> and <b>right</b> in <a href='#rows'>the table of all rows</a>: the "
+        "pages of two runs stand here, each with its player. They lie beside this file, in "
+        "<code>stages</code>.</p><div class='two'><iframe name='left' title='run on the left'>"
+        "</iframe><iframe name='right' title='run on the right'></iframe></div>";
+    close();
+  }
+
+  [[nodiscard]] std::string links(std::size_t row) const {
+    const std::string to = row < about_.reports.size() ? about_.reports[row] : "";
+    if (to.empty()) return "<td class='word'></td>";
+    return fmt::format(
+        "<td class='word'><a href='{0}' target='_blank'>page</a> <a href='{0}#the-flow' "
+        "target='left'>left</a> <a href='{0}#the-flow' target='right'>right</a></td>",
+        xml_text(to));
   }
 
   void rows() {
-    html_ += "<h2>All rows</h2><div class='wide'><table><tr>";
+    open("rows", "All rows");
+    html_ += "<div class='wide'><table><tr>";
     std::vector<const Column*> columns;
     for (const Column& c : table_.columns) {
       const bool result =
           std::find(f_.results.begin(), f_.results.end(), c.name) != f_.results.end();
       if (c.name == "row" || c.name == "variant" || c.name == "repeat" || c.role == Role::input ||
-          c.name == "state" || c.name == "cause" || result)
+          c.name == "state" || c.name == "cause" || c.name == "outcome" || result)
         columns.push_back(&c);
     }
     for (const Column* c : columns)
       html_ += fmt::format("<th{}>{}</th>", c->is_number ? "" : " class='word'",
                            xml_text(readable(table_, c->name)));
-    html_ += "</tr>";
+    html_ += has_reports() ? "<th class='word'>run</th></tr>" : "</tr>";
     for (std::size_t r = 0; r < table_.rows; ++r) {
       html_ += "<tr>";
       for (const Column* c : columns) {
@@ -268,21 +318,25 @@ class Writer {
                            : " class='word'",
             xml_text(is_set(c->number[r]) ? fmt::format("{:.4g}", c->number[r]) : c->text[r]));
       }
+      if (has_reports()) html_ += links(r);
       html_ += "</tr>";
     }
     html_ +=
-        "</table></div><p class='soft'>Everything that the stages found: table.csv, table.h5, "
+        "</table></div><p class='note'>Everything that the stages found: table.csv, table.h5, "
         "columns.csv. The numbers of this page: analysis.json.</p>";
+    close();
   }
 
   void end() {
+    open("cost", "How it was computed");
     html_ += fmt::format(
-        "<h2>How it was computed</h2><p class='soft'>{} stages, each once for all rows that share "
+        "<p>{} stages, each once for all rows that share "
         "it. Study file: {}. How the statistics are defined: docs/theory/study-statistics.md."
         "</p>",
         plan_.nodes.size(), xml_text(plan_.file.filename().string()));
-    if (!sessions_.empty()) cost();
-    html_ += "</body></html>\n";
+    if (!about_.sessions.empty()) cost();
+    close();
+    html_ += "</main></body></html>\n";
   }
 
   void cost() {
@@ -290,7 +344,7 @@ class Writer {
         "<div class='wide'><table><tr><th class='word'>computed from</th><th class='word'>by</th>"
         "<th class='word'>on</th><th>processors used</th><th>stages</th><th>time [min]</th>"
         "<th>processor time [min]</th></tr>";
-    for (const SessionRecord& s : sessions_)
+    for (const SessionRecord& s : about_.sessions)
       html_ += fmt::format(
           "<tr><td class='word'>{}</td><td class='word'>{}</td><td class='word'>{}</td><td>{}</td>"
           "<td>{}</td><td>{:.1f}</td><td>{:.1f}</td></tr>",
@@ -302,7 +356,7 @@ class Writer {
   const Plan& plan_;
   const Table& table_;
   const StudyFindings& f_;
-  const std::vector<SessionRecord>& sessions_;
+  const StudyAbout& about_;
   Page page_;
   std::string html_;
 };
@@ -310,8 +364,8 @@ class Writer {
 }  // namespace
 
 Page make_page(const Plan& plan, const Table& table, const StudyFindings& findings,
-               const std::vector<SessionRecord>& sessions) {
-  return Writer(plan, table, findings, sessions).write();
+               const StudyAbout& about) {
+  return Writer(plan, table, findings, about).write();
 }
 
 }  // namespace flowslide::study

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace flowslide::study {
 
@@ -14,9 +15,14 @@ struct Page {
   std::map<std::string, std::string> figures;  ///< SVG by file name
 };
 
-/// `sessions`: what it cost, in any number.
+/// What is not in the table.
+struct StudyAbout {
+  std::vector<SessionRecord> sessions;  ///< what it cost
+  std::vector<std::string> reports;     ///< page of each row's run, beside the study's; "" for none
+};
+
 Page make_page(const Plan& plan, const Table& table, const StudyFindings& findings,
-               const std::vector<SessionRecord>& sessions = {});
+               const StudyAbout& about = {});
 
 /// table.csv, columns.csv, table.h5, analysis.json, study.html and figures/ in the folder of the
 /// study. Throws FileError, and Interrupted once `stop` is set. In figures/ only those go that an

@@ -42,6 +42,22 @@ void remove_earlier(const fs::path& folder, const std::map<std::string, std::str
   }
 }
 
+/// The page of the run of each row, where its report is kept, relative to the folder.
+std::vector<std::string> pages(const fs::path& folder, const Plan& plan, const Table& table) {
+  std::vector<std::string> found(table.rows);
+  for (std::size_t r = 0; r < table.rows; ++r)
+    for (const std::size_t n : plan.rows[r].nodes) {
+      const std::string& stage = plan.nodes[n].stage.name;
+      const Column* key = table.find("key:" + stage);
+      if (plan.nodes[n].stage.type.name != "report.runout" || !key || key->text[r].empty())
+        continue;
+      const std::string path = fmt::format("stages/{}/{}/report/report.html", stage, key->text[r]);
+      std::error_code error;
+      if (fs::is_regular_file(folder / path, error)) found[r] = path;
+    }
+  return found;
+}
+
 }  // namespace
 
 void write_tables(const fs::path& folder, const Plan&, const Table& table) {
@@ -53,7 +69,8 @@ void write_tables(const fs::path& folder, const Plan&, const Table& table) {
 void write_page(const fs::path& folder, const Plan& plan, const Table& table,
                 const std::atomic<bool>* stop) {
   const StudyFindings findings = analyse(plan, table, stop);
-  const Page page = make_page(plan, table, findings, read_sessions(folder));
+  const Page page =
+      make_page(plan, table, findings, {read_sessions(folder), pages(folder, plan, table)});
   const fs::path figures = folder / "figures", analysis = folder / "analysis.json";
   std::error_code error;
   if (fs::is_symlink(fs::symlink_status(figures, error)))

@@ -47,6 +47,13 @@ std::vector<std::pair<std::string, Json>> flat_facts(const std::string& text) {
   return facts;
 }
 
+std::string without_numbers(std::string text) {
+  std::erase_if(text, [](char c) {
+    return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+' || c == 'e';
+  });
+  return text;
+}
+
 std::string number_text(double value) { return fmt::format("{}", value); }
 
 class Builder {
@@ -136,6 +143,19 @@ class Builder {
     add("cause", Role::state, "", "of a failure").text = std::move(causes);
   }
 
+  void add_warnings(const std::string& stage, const std::string& facts) {
+    const Json all = Json::parse(facts, nullptr, false);
+    if (!all.is_object() || !all.contains("warnings") || !all["warnings"].is_array()) return;
+    for (const Json& warning : all["warnings"]) {
+      if (!warning.is_string()) continue;
+      const std::string text = warning.get<std::string>();
+      const auto [it, is_new] =
+          warning_.try_emplace(stage + without_numbers(text), table_.warnings.size());
+      if (is_new) table_.warnings.push_back({stage, text, 0});
+      ++table_.warnings[it->second].rows;
+    }
+  }
+
   /// The later stage counts, as in result.json.
   void add_found() {
     std::map<std::string, Column> columns;
@@ -144,6 +164,7 @@ class Builder {
       for (const std::size_t n : plan_.rows[r].nodes) {
         const auto& finished = progress_.node(n).finished;
         if (!finished) continue;
+        add_warnings(plan_.nodes[n].stage.name, finished->record.facts);
         for (const auto& [name, value] : flat_facts(finished->record.facts)) {
           auto [it, is_new] = columns.try_emplace(name);
           Column& c = it->second;
@@ -194,6 +215,7 @@ class Builder {
 
   const Plan& plan_;
   const StudyState& progress_;
+  std::map<std::string, std::size_t> warning_;  ///< place in table_.warnings
   Table table_;
 };
 

@@ -23,8 +23,16 @@ struct Column {
 };
 inline constexpr std::size_t kNoNode = std::numeric_limits<std::size_t>::max();
 
+/// What stages of that name warned of, in rows so many. Texts that differ only in their numbers are
+/// one, with the first one's.
+struct TableWarning {
+  std::string stage, text;
+  std::size_t rows = 0;
+};
+
 struct Table {
   std::vector<Column> columns;
+  std::vector<TableWarning> warnings;
   std::size_t rows = 0;
   [[nodiscard]] const Column* find(std::string_view name) const;
 };

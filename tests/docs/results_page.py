@@ -82,6 +82,9 @@ def write_study(folder, rows):
         depth = MOTIONS["ridgecrest"][3][index]
         curve = f"time_s,depth_max_pond_m\n16,2.5\n17,4\n18,{depth / 2}\n20,{depth}\n21,{depth}\n"
         (report / "zone.csv").write_text(curve, encoding="utf-8")
+    (folder / "stages/flow").mkdir()
+    record = {"record": {"settings": ["cell = 2.5 m", "end = 300 s"]}}
+    (folder / "stages/flow/hector-mine 0.3 0.5.json").write_text(json.dumps(record))
     (folder / "sessions").mkdir()
     for i, wall in enumerate((600, 1200)):
         session = {"began": f"2025-01-0{i + 1}T00:00:00Z", "program": "flowslide 9.9 (abc)",
@@ -130,6 +133,7 @@ def check_of_the_paper(scratch):
     expect(found, "not comparable", NOT_COMPARABLE)
     expect(found, "reproduced", found.keys() - NOT_COMPARABLE)
     assert "30 minutes on the wall, 60 minutes of processors, in 2 sessions" in page
+    assert "Cells of the flow: 2.5 m (base)." in page
     assert "flowslide 9.9 (abc); a processor, 2 processors" in page
     # Mean of 90 and two repeats: ± 2 m.
     assert re.search(r"\| N4 .*\| 90 m \| ± 2 m, 3 runs \| reproduced \|", page), page

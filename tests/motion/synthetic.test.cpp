@@ -40,6 +40,10 @@ TEST_CASE("every preset reaches its PGA, period and duration", "[motion]") {
     CHECK(std::abs(displacement(motion).back()) < 0.05 * pgd(motion));
     pgvs.push_back(pgv(motion));
     psa_2s.push_back(pseudo_acceleration(motion, std::array{2.0})[0]);
+    // The energy of a record: ten have 0.43 to 1.21 (docs/theory/ground-motion.md).
+    const double energy = arias_intensity(motion) / (0.09 * preset.d5_95);
+    CHECK(energy > 0.43);
+    CHECK(energy < 1.05 * 1.21);
     // What the paper tells beyond the targets is met roughly.
     if (is_set(preset.pgv)) CHECK(pgvs.back() == Approx(preset.pgv).epsilon(0.08));
     if (is_set(preset.masi)) CHECK(masi(motion) == Approx(preset.masi).epsilon(0.08));

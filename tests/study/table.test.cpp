@@ -91,6 +91,46 @@ TEST_CASE("The page of a study is one file that asks nothing of the network", "[
              Contains("xmlns='http://www.w3.org/2000/svg'"));
 }
 
+TEST_CASE("The page answers in words, warns, and leads to the runs", "[study]") {
+  StudyBench bench;
+  const Plan plan = bench.plan(kStudy);
+  bench.run(plan);
+  Table table = make_table(plan, bench.progress(plan));
+  table.warnings = {{"count", "beyond <1> & 2", 3}};
+  const StudyFindings findings = analyse(plan, table);
+  StudyAbout about;
+  about.reports.resize(table.rows);
+  about.reports[0] = "stages/report/a/report/report.html";
+  const std::string html = make_page(plan, table, findings, about).html;
+  // sum = factor * (one + 2) for one 1..4 and factor 1, 2: its largest is 12, its median 6.
+  CHECK_THAT(html, Contains("Half of the rows have a sum above <b>6</b>") &&
+                       Contains("Numerics alone move one row by") &&
+                       Contains("<b>factor</b>: 4.5 on average at 1, 9 at 2"));
+  CHECK_THAT(html, Contains("count: beyond &lt;1&gt; &amp; 2 <span class='note'>(3 rows)"));
+  CHECK_THAT(html, Contains("href='stages/report/a/report/report.html#the-flow' target='left'"));
+  CHECK_THAT(make_page(plan, table, findings).html, !Contains("<iframe"));
+}
+
+TEST_CASE("Stages' warnings that differ in numbers only are told once", "[study]") {
+  StudyBench bench;
+  const Plan plan = bench.plan(kStudy);
+  bench.run(plan);
+  const Store store(bench.folder);
+  const StudyState before = bench.progress(plan);
+  std::size_t sums = 0;
+  for (std::size_t n = 0; n < plan.nodes.size(); ++n) {
+    if (plan.nodes[n].stage.name != "sum") continue;
+    Finished f = *store.finished("sum", before.node(n).key);
+    f.record.facts = fmt::format(R"({{"sum": 1, "warnings": ["{} m are too few"]}})", ++sums);
+    store.write(f);
+  }
+  const Table table = make_table(plan, bench.progress(plan));
+  REQUIRE(table.warnings.size() == 1);
+  CHECK(table.warnings[0].stage == "sum");
+  CHECK(table.warnings[0].rows == table.rows);
+  CHECK_THAT(table.warnings[0].text, Contains(" m are too few"));
+}
+
 TEST_CASE("Numbers that hang on the machine are not in the table", "[study]") {
   StudyBench bench;
   const Plan plan = bench.plan("");

@@ -10,7 +10,7 @@ struct AuditLimits {
   double mass = 1e-10;               ///< relative
   double volume = 1e-10;             ///< relative
   double momentum = 1e-3;            ///< of the sum of m |v|
-  double kinetic_energy = 0.01;      ///< relative
+  double kinetic_energy = 0.01;      ///< of it, or of that at 1 cm/s
   double stress = 0.02;              ///< integral of each component, of that of |sigma_yy|
   double yield = 1e-6;               ///< left after the return, relative to the strength
   double out_of_balance_rms = 0.03;  ///< [g], state at rest only
@@ -28,8 +28,10 @@ struct Schema<AuditLimits> {
     v.quantity("volume", a.volume, Dim::none, positive, "relative error of the total volume");
     v.quantity("momentum", a.momentum, Dim::none, positive,
                "error of each component of the momentum, relative to the sum of m |v|");
-    v.quantity("kinetic_energy", a.kinetic_energy, Dim::none, positive,
-               "relative error of the kinetic energy");
+    v.quantity(
+        "kinetic_energy", a.kinetic_energy, Dim::none, positive,
+        "error of the kinetic energy, relative to it, or to that of the whole mass at 1 cm/s "
+        "where it is less");
     v.quantity("stress", a.stress, Dim::none, positive,
                "error of the volume integral of each total stress component as mapped, relative to "
                "that of |sigma_yy|");

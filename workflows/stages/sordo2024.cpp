@@ -11,7 +11,7 @@ struct Sordo2024Stage {
   static constexpr std::string_view name = "transfer.sordo2024";
   static constexpr std::string_view doc =
       "Carries the state to material points as the published script of Sordo et al. (2024) does.";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   static constexpr bool checkpoints = false;
   using Config = SordoTransferConfig;
   struct Inputs {

@@ -1,0 +1,27 @@
+#include "study/page/labels.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace flowslide::study {
+
+std::string short_number(double v) { return is_set(v) ? fmt::format("{:.3g}", v) : "-"; }
+
+std::string interval(const Estimate& e) {
+  if (!is_set(e.value)) return "-";
+  if (!is_set(e.low)) return short_number(e.value);
+  return fmt::format("{} ({} to {})", short_number(e.value), short_number(e.low),
+                     short_number(e.high));
+}
+
+std::string readable(const Table& table, const std::string& name) {
+  std::string text = name;
+  const Column* c = table.find(name);
+  const std::string unit = c ? c->unit : unit_in_name(name);
+  if (c && c->role == Role::found) text = without_unit(name);
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return unit.empty() ? text : fmt::format("{} [{}]", text, unit);
+}
+
+}  // namespace flowslide::study
