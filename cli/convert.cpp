@@ -22,7 +22,7 @@ void add_convert(CLI::App& app, Command& action) {
   command->callback([options, &action] {
     action = [options] {
       const Converted done = convert(*options);
-      for (const std::string& note : done.notes) fmt::print(stderr, "note: {}\n", note);
+      for (const std::string& note : done.notes) print_wrapped(stderr, "note: ", note);
       for (const std::string& warning : done.warnings) print_warning(warning);
       fmt::print("{}\n", options->out);
       return 0;

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cctype>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace flowslide::cli {
 namespace {
@@ -17,6 +20,15 @@ std::string printable(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c); }, '?');
   return text;
+}
+
+/// Six digits are what a reader takes in; --json has them all.
+std::string shown(const Json& value) {
+  if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
+  if (!value.is_array()) return value.dump();
+  std::vector<std::string> parts;
+  for (const Json& part : value) parts.push_back(shown(part));
+  return fmt::format("[{}]", fmt::join(parts, ", "));
 }
 
 void print(const Json& json, const std::string& indent) {
@@ -32,7 +44,7 @@ void print(const Json& json, const std::string& indent) {
     } else if (value.is_string()) {
       fmt::print("{}{:<24} {}\n", indent, key, printable(value.get<std::string>()));
     } else if (!value.is_array() || !value.empty()) {
-      fmt::print("{}{:<24} {}\n", indent, key, value.dump());
+      fmt::print("{}{:<24} {}\n", indent, key, shown(value));
     }
   }
 }

@@ -1,11 +1,11 @@
 #include "cli/command.hpp"
 #include "cli/short_waits.hpp"
+#include "cli/terminal.hpp"
 #include "config/yaml.hpp"
 #include "core/check.hpp"
 #include "workflows/engine/program_version.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -25,17 +25,12 @@ namespace {
 
 constexpr int kNoResources = 4;  ///< exit code where memory, threads or a file are not to be had
 
-/// Every line of a message is an error of its own. Text that a file brought must not steer the
-/// terminal. Allocates nothing: it may be memory that is short.
+/// Every line of a message is an error of its own. Allocates nothing: it may be memory that is
+/// short.
 void print_errors(std::string_view text) {
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
-    if (end > 0) {
-      std::fputs("error: ", stderr);
-      for (const char c : text.substr(0, end))
-        std::fputc(std::iscntrl(static_cast<unsigned char>(c)) && c != '\t' ? '?' : c, stderr);
-      std::fputc('\n', stderr);
-    }
+    if (end > 0) flowslide::cli::print_wrapped(stderr, "error: ", text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
   }
 }

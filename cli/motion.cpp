@@ -29,7 +29,7 @@ int measure_records(Options options) {
   std::vector<MotionRow> rows;
   for (const std::string& file : options.files) {
     rows.push_back(measure_record(file, pga, options.format));
-    for (const std::string& note : rows.back().notes) fmt::print(stderr, "note: {}\n", note);
+    for (const std::string& note : rows.back().notes) print_wrapped(stderr, "note: ", note);
     for (const std::string& warning : rows.back().warnings) print_warning(warning);
   }
   if (options.json)

@@ -55,41 +55,38 @@ std::size_t terminal_columns(int file) {
                      : kUsual;
 }
 
-std::string wrapped(std::string_view text, std::size_t columns, std::size_t indent) {
-  std::string out;
-  std::size_t column = 0;
+void print_wrapped(std::FILE* file, std::string_view label, std::string_view text) {
+  const int descriptor = ::fileno(file);
+  const bool wrap = ::isatty(descriptor) == 1;
+  // One column is kept free: some terminals wrap at the last one.
+  const std::size_t columns = wrap ? terminal_columns(descriptor) - 1 : 0;
+  std::fwrite(label.data(), 1, label.size(), file);
+  std::size_t column = label.size();
   while (!text.empty()) {
-    const std::size_t end = std::min(text.find(' '), text.size());
-    const std::string_view word = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    if (word.empty()) continue;
+    const std::size_t blanks = std::min(text.find_first_not_of(' '), text.size());
+    const std::string_view word = text.substr(blanks, text.find(' ', blanks) - blanks);
     const std::size_t width = width_of(word);
-    const bool fits = column + 1 + width <= columns;
-    if (column > 0 && fits) {
-      out += ' ';
-      ++column;
-    } else if (column > 0) {
-      out += '\n' + std::string(indent, ' ');
-      column = indent;
-    }
-    out += word;
-    column += width;
+    const bool breaks = wrap && column > label.size() && column + blanks + width > columns;
+    if (breaks) std::fputc('\n', file);
+    const std::size_t gap = breaks ? label.size() : blanks;
+    for (std::size_t i = 0; i < gap; ++i) std::fputc(' ', file);
+    // Text that a file brought must not steer the terminal.
+    for (const char c : word)
+      std::fputc(std::iscntrl(static_cast<unsigned char>(c)) && c != '\t' ? '?' : c, file);
+    column = (breaks ? gap : column + gap) + width;
+    text.remove_prefix(blanks + word.size());
   }
-  return out;
+  std::fputc('\n', file);
 }
 
 void print_warning(std::string_view text) {
   std::fflush(stdout);
-  const std::string line = fmt::format("warning: {}", text);
-  if (::isatty(STDERR_FILENO) == 1)
-    fmt::print(stderr, "{}\n", wrapped(line, terminal_columns(STDERR_FILENO) - 1, 9));
-  else
-    fmt::print(stderr, "{}\n", line);
+  print_wrapped(stderr, "warning: ", text);
 }
 
-// One column is kept free: some terminals wrap at the last one.
 Display::Display(bool terminal)
-    : terminal_(terminal), columns_(terminal ? terminal_columns(STDOUT_FILENO) - 1 : 79) {}
+    : terminal_(terminal),
+      columns_(terminal ? terminal_columns(STDOUT_FILENO) - 1 : std::string::npos) {}
 
 void Display::warn(std::string_view stage, const std::vector<std::string>& warnings) {
   for (const std::string& text : warnings) {
@@ -222,11 +219,7 @@ void Display::done(std::string_view stage, double seconds) {
 
 void Display::notice(std::string_view text) {
   close();
-  std::string line(text);
-  // Names come from files, which must not steer the terminal.
-  std::replace_if(
-      line.begin(), line.end(), [](unsigned char c) { return std::iscntrl(c); }, '?');
-  fmt::print("note: {}\n", line);
+  print_wrapped(stdout, "note: ", text);
 }
 
 void Display::close() {

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdio>
 #include <set>
 #include <string>
 #include <string_view>
@@ -28,18 +29,19 @@ struct Expectation {
 /// Columns of the terminal behind a file descriptor, else of COLUMNS, else 80; at least 20.
 std::size_t terminal_columns(int file);
 
-/// Breaks a text at blanks into lines of at most so many columns; lines after the first are
-/// indented. A word that is longer stays whole.
-std::string wrapped(std::string_view text, std::size_t columns, std::size_t indent);
+/// Prints a label, "note: ", and a text behind it, on a terminal broken at blanks into lines of its
+/// width, those after the first indented by the label; elsewhere one line, for scripts. A word that
+/// is longer than a line stays whole. Allocates nothing.
+void print_wrapped(std::FILE* file, std::string_view label, std::string_view text);
 
 /// Cuts at a column, never inside a UTF-8 character.
 std::string cut_to(std::string text, std::size_t columns);
 
-/// "warning: ..." on stderr, wrapped to its terminal; elsewhere one line each, for scripts.
+/// "warning: ..." on stderr.
 void print_warning(std::string_view text);
 
-/// Shows a run on stdout: a bar that is redrawn on a terminal, a line at every tenth elsewhere, cut
-/// to the width of the terminal. Warnings go to stderr, each once.
+/// Shows a run on stdout: on a terminal a bar that is redrawn and lines that are cut to its width,
+/// elsewhere a line at every tenth and all lines whole. Warnings go to stderr, each once.
 class Display {
  public:
   explicit Display(bool terminal);

@@ -68,18 +68,17 @@ class JsonSchema final : public FieldVisitor {
 
   void quantity(std::string_view key, double& value, Dim dim, Range range,
                 std::string_view doc) override {
-    add(key, quantity_schema(dim, range), doc, !is_set(value),
-        range_text(range, si_unit(dim), 1.0));
+    add(key, quantity_schema(dim, range), doc, !is_set(value), shown_range(range, dim));
     if (is_set(value)) preset(key, value, dim);
   }
   void quantity(std::string_view key, std::optional<double>& value, Dim dim, Range range,
                 std::string_view doc) override {
-    add(key, quantity_schema(dim, range), doc, false, range_text(range, si_unit(dim), 1.0));
+    add(key, quantity_schema(dim, range), doc, false, shown_range(range, dim));
     if (value) preset(key, *value, dim);
   }
   void integer(std::string_view key, int& value, Range range, std::string_view doc) override {
-    add(key, or_reference(bounded("integer", range)), doc);
-    property(key)["default"] = value;
+    add(key, or_reference(bounded("integer", range)), doc, !range.contains(value));
+    if (range.contains(value)) property(key)["default"] = value;
   }
   void flag(std::string_view key, bool& value, std::string_view doc) override {
     add(key, or_reference({{"type", "boolean"}}), doc);
@@ -233,7 +232,7 @@ class JsonSchema final : public FieldVisitor {
     if (dim == Dim::none)
       property(key)["default"] = value;
     else
-      property(key)["default"] = to_text(value, dim);
+      property(key)["default"] = shown_value(value, dim);
   }
 
   std::vector<Level> levels_;

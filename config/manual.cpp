@@ -19,7 +19,7 @@ std::string kind_of(Dim dim) {
 std::string code(std::string_view text) { return fmt::format("`{}`", text); }
 
 std::string default_of(double value, Dim dim) {
-  return is_set(value) ? code(to_text(value, dim)) : std::string(kRequired);
+  return is_set(value) ? code(shown_value(value, dim)) : std::string(kRequired);
 }
 
 template <class Range>
@@ -29,7 +29,7 @@ std::string default_list(const Range& texts) {
 
 std::vector<std::string> texts_of(std::span<const double> values, Dim dim) {
   std::vector<std::string> texts;
-  for (const double value : values) texts.push_back(to_text(value, dim));
+  for (const double value : values) texts.push_back(shown_value(value, dim));
   return texts;
 }
 
@@ -39,15 +39,17 @@ class ManualPage final : public FieldVisitor {
 
   void quantity(std::string_view key, double& value, Dim dim, Range range,
                 std::string_view doc) override {
-    row(key, kind_of(dim), default_of(value, dim), range_text(range, si_unit(dim), 1.0), doc);
+    row(key, kind_of(dim), default_of(value, dim), shown_range(range, dim), doc);
   }
   void quantity(std::string_view key, std::optional<double>& value, Dim dim, Range range,
                 std::string_view doc) override {
     row(key, kind_of(dim), value ? default_of(*value, dim) : std::string(kOptional),
-        range_text(range, si_unit(dim), 1.0), doc);
+        shown_range(range, dim), doc);
   }
   void integer(std::string_view key, int& value, Range range, std::string_view doc) override {
-    row(key, "whole number", code(std::to_string(value)), range_text(range, "", 1.0), doc);
+    row(key, "whole number",
+        range.contains(value) ? code(std::to_string(value)) : std::string(kRequired),
+        range_text(range, "", 1.0), doc);
   }
   void flag(std::string_view key, bool& value, std::string_view doc) override {
     row(key, "true or false", code(value ? "true" : "false"), "", doc);
@@ -93,7 +95,7 @@ class ManualPage final : public FieldVisitor {
     for (const auto& values_of_row : values) {
       std::vector<std::string> cells;
       for (std::size_t i = 0; i < columns.size(); ++i)
-        cells.push_back(to_text(values_of_row[i], columns[i].dim));
+        cells.push_back(shown_value(values_of_row[i], columns[i].dim));
       lines.push_back(fmt::format("[{}]", fmt::join(cells, ", ")));
     }
     row(key, fmt::format("list of rows [{}]", fmt::join(kinds, "; ")), default_list(lines), "",

@@ -1,6 +1,7 @@
 #include "config/read_value.hpp"
 
 #include "config/range_text.hpp"
+#include "core/conventions.hpp"
 #include "core/odd_characters.hpp"
 
 #include <algorithm>
@@ -79,6 +80,16 @@ std::string range_text(const Range& range, std::string_view unit, double factor)
         fmt::format("{}{} {}", text.empty() ? "" : " and ", upper.exclusive ? "below" : "at most",
                     bound_text(upper.value, unit, factor));
   return text;
+}
+
+std::string shown_range(const Range& range, Dim dim) {
+  return dim == Dim::angle ? range_text(range, "deg", kPi / 180.0)
+                           : range_text(range, si_unit(dim), 1.0);
+}
+
+std::string shown_value(double si_value, Dim dim) {
+  return dim == Dim::angle ? fmt::format("{:.12g} deg", si_value * 180.0 / kPi)
+                           : to_text(si_value, dim);
 }
 
 double read_quantity(const YamlNode& node, Dim dim, const Range& range) {

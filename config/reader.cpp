@@ -45,7 +45,8 @@ class SettingsReader final : public FieldVisitor {
           [&](const YamlNode& node) { value = read_quantity(node, dim, range); });
   }
   void integer(std::string_view key, int& value, Range range, std::string_view doc) override {
-    field(key, false, {}, doc, [&](const YamlNode& node) { value = read_integer(node, range); });
+    field(key, !range.contains(value), "1", doc,
+          [&](const YamlNode& node) { value = read_integer(node, range); });
   }
   void flag(std::string_view key, bool& value, std::string_view doc) override {
     field(key, false, {}, doc, [&](const YamlNode& node) { value = read_flag(node); });

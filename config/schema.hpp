@@ -26,8 +26,8 @@
 ///
 /// and the visitors of this module read it from YAML (unit, range, unknown keys with the nearest
 /// known one, file:line:column), write its canonical text for hashing, its manual page and its
-/// JSON Schema. A value whose default is unset (NaN, empty text, empty path) must be given; wrap it
-/// in std::optional if it may be left out. Visitors run at set-up only, never inside a step.
+/// JSON Schema. What has no default (NaN, empty text or path, an integer out of its range) must be
+/// given; in a std::optional it may be left out. Visitors run at set-up only, never inside a step.
 namespace flowslide {
 
 /// Allowed values in SI. Bounds named `above`/`below` are exclusive, `min`/`max` inclusive.

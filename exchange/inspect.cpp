@@ -1,5 +1,6 @@
 #include "exchange/inspect.hpp"
 
+#include "exchange/inspect_record.hpp"
 #include "exchange/inspect_run.hpp"
 #include "exchange/is_hdf5.hpp"
 #include "importers/recorder_text.hpp"
@@ -157,6 +158,10 @@ Json inspect_recorder(const fs::path& path) {
   }
   j["values"] = {s.value_min, s.value_max};
   j["notes"] = s.notes;
+  if (s.has_time && s.columns == 2 && s.stages == 1)
+    j["notes"].push_back(
+        "an earthquake record without a heading looks the same: flowslide motion reads it, told "
+        "the unit.");
   j["problems"] = s.problems;
   return j;
 }
@@ -168,7 +173,7 @@ Json inspect(const fs::path& path) {
   if (fs::is_directory(path, error)) return inspect_run(path);
   if (is_hdf5(path)) return inspect_store(path);
   if (path.extension() == ".yaml" || path.extension() == ".yml") return inspect_workflow(path);
-  return inspect_recorder(path);
+  return is_motion_record(path) ? inspect_record(path) : inspect_recorder(path);
 }
 
 }  // namespace flowslide

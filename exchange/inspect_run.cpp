@@ -48,6 +48,19 @@ void add_problems(Json& list, const fs::path& folder) {
     }
 }
 
+/// Stages in the order in which they ran, as the result has them; the rest by name.
+std::vector<std::string> in_order(const RunLock& lock, const std::optional<Json>& result) {
+  std::vector<std::string> names;
+  const auto add = [&names, &lock](const std::string& name) {
+    if (lock.stages.count(name) > 0 && std::ranges::find(names, name) == names.end())
+      names.push_back(name);
+  };
+  if (result && result->contains("stages"))
+    for (const auto& [name, stage] : (*result)["stages"].items()) add(name);
+  for (const auto& [name, record] : lock.stages) add(name);
+  return names;
+}
+
 }  // namespace
 
 Json inspect_run(const fs::path& folder) {
@@ -66,11 +79,13 @@ Json inspect_run(const fs::path& folder) {
     j["file"] = lock->file;
     j["complete"] = lock->complete && result.json;
     j["stages"] = Json::object();
-    for (const auto& [name, record] : lock->stages)
+    for (const std::string& name : in_order(*lock, result.json)) {
+      const StageRecord& record = lock->stages.at(name);
       j["stages"][name] = {{"uses", record.uses},
                            {"seconds", record.seconds},
                            {"key", record.key},
                            {"program", record.program}};
+    }
     for (const std::string& text : problems_at_top(folder, *lock)) problems.push_back(text);
   }
   add_problems(problems, folder);

@@ -16,7 +16,7 @@ template <>
 struct Schema<NamedTag> {
   static constexpr std::string_view doc = "A material of the file.";
   static void describe(FieldVisitor& v, NamedTag& c) {
-    v.integer("tag", c.tag, {}, "its number in the file");
+    v.integer("tag", c.tag, {.min = 0}, "its number in the file");
   }
 };
 

@@ -11,7 +11,7 @@
 namespace flowslide {
 
 struct NamedTag {
-  int tag = 0;
+  int tag = -1;
 };
 
 struct MeshImportConfig {

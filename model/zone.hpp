@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// The liquefied part of a section at the moment of transfer. On disk: HDF5, kind "zone".
@@ -26,6 +27,13 @@ struct ZoneHistory {
       distortion_gauss;  ///< Q with the smallest of the 2x2 Gauss-point Jacobians [-]
   std::vector<double> distortion_centre;  ///< Q with the Jacobian at the centre, the area ratio [-]
 };
+
+/// Name of the one window that there is where the user gave none, and what to call a window in
+/// texts.
+inline constexpr std::string_view kWholeSoil = "all";
+inline std::string window_label(std::string_view name) {
+  return std::string(name == kWholeSoil ? "whole soil" : name);
+}
 
 struct LiquefactionZone {
   double transfer_time = 0.0;       ///< [s]; 0 for the gravity state

@@ -1,5 +1,6 @@
 #include "core/check.hpp"
 #include "motion/at2.hpp"
+#include "motion/unit_words.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,9 +11,6 @@ namespace flowslide {
 namespace {
 
 constexpr std::size_t kHeaderLines = 20;
-
-bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// Position of a whole word in upper-case text, or npos. A digit may touch its end ("DT.005").
 std::size_t find_word(std::string_view text, std::string_view word) {
@@ -48,62 +46,6 @@ std::vector<double> free_numbers(std::string_view text) {
     text.remove_prefix(1);
   }
   return numbers;
-}
-
-struct Spelling {
-  std::string_view text;
-  std::string_view unit;
-};
-
-// Blanks are gone and ** is ^ before these are compared; longer spellings of a start come first.
-constexpr std::array kSpellings = {
-    Spelling{"CM/SEC/SEC", "cm/s2"},
-    Spelling{"CM/S/S", "cm/s2"},
-    Spelling{"CM/SEC^2", "cm/s2"},
-    Spelling{"CM/SEC2", "cm/s2"},
-    Spelling{"CM/S^2", "cm/s2"},
-    Spelling{"CM/S2", "cm/s2"},
-    Spelling{"CM/SQ.SEC", "cm/s2"},
-    Spelling{"CM/SQSEC", "cm/s2"},
-    Spelling{"GALS", "cm/s2"},
-    Spelling{"GAL", "cm/s2"},
-    Spelling{"M/SEC/SEC", "m/s2"},
-    Spelling{"M/S/S", "m/s2"},
-    Spelling{"M/SEC^2", "m/s2"},
-    Spelling{"M/SEC2", "m/s2"},
-    Spelling{"M/S^2", "m/s2"},
-    Spelling{"M/S2", "m/s2"},
-    Spelling{"G'S", "g"},
-    Spelling{"GS", "g"},
-    Spelling{"G", "g"},
-};
-
-/// "CM / SEC ** 2, ..." -> "CM/SEC^2, ...".
-std::string closed_up(std::string_view text) {
-  std::string out;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool joins = !out.empty() && (out.back() == '/' || out.back() == '^');
-    if (text[i] == ' ' || text[i] == '\t') {
-      if (!joins && !out.empty() && out.back() != ' ') out += ' ';
-      continue;
-    }
-    const bool power = text[i] == '^' || text.substr(i, 2) == "**";
-    if ((power || text[i] == '/') && !out.empty() && out.back() == ' ') out.pop_back();
-    out += power ? '^' : text[i];
-    if (power && text[i] == '*') ++i;
-  }
-  return out;
-}
-
-std::optional<std::string> unit_at_start(std::string_view text) {
-  text.remove_prefix(std::min(text.find_first_not_of(" ([:="), text.size()));
-  for (const Spelling& s : kSpellings) {
-    if (!text.starts_with(s.text)) continue;
-    const char next = text.size() > s.text.size() ? text[s.text.size()] : ' ';
-    if (!is_letter(next) && !is_digit(next) && next != '/' && next != '^')
-      return std::string(s.unit);
-  }
-  return std::nullopt;
 }
 
 /// The unit that a header line states: after the word UNITS, or in words such as CM/SEC/SEC.

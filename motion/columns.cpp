@@ -3,6 +3,7 @@
 #include "core/check.hpp"
 #include "core/median.hpp"
 #include "core/units.hpp"
+#include "motion/unit_words.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -52,6 +53,32 @@ Choice choose_columns(const std::string& name, std::size_t columns, const Record
   return choice;
 }
 
+struct Heading {
+  std::size_t line;
+  std::string_view text;
+};
+
+/// A wrong unit is a wrong size of the whole motion, so a heading that says another one counts.
+void compare_units(const std::string& name, const std::vector<Heading>& headings,
+                   std::size_t column, std::size_t columns,
+                   const std::optional<std::string>& declared) {
+  for (const Heading& h : headings) {
+    const auto unit = unit_in_heading(h.text, column, columns);
+    if (!unit) continue;
+    validate(
+        declared.has_value(),
+        "{}:{}: the unit of acceleration is not known (headings may be wrong, and are not taken "
+        "at their word) give `unit: {}` if that is what it says",
+        name, h.line, *unit);
+    const double ratio =
+        unit_factor(*declared, Dim::acceleration) / unit_factor(*unit, Dim::acceleration);
+    validate(std::abs(ratio - 1.0) < 1e-9,
+             "{}:{}: the heading says {}, but `unit` is {} (accelerations would be {:.4g} times "
+             "those of the heading) correct `unit`, or the heading in a copy of the file",
+             name, h.line, *unit, *declared, ratio);
+  }
+}
+
 struct TimedValue {
   std::size_t line;
   double time;
@@ -83,26 +110,33 @@ double uniform_step(const std::string& name, const std::vector<TimedValue>& time
       name, times[static_cast<std::size_t>(odd - steps.begin()) + 1].line, *odd, usual));
 }
 
-}  // namespace
-
-Record parse_columns(const RecordText& text, const RecordFormat& format) {
+double factor_to_si(const std::string& name, const RecordFormat& format) {
   validate(
       format.unit.has_value(),
       "{}: the unit of acceleration is not known (columns do not say it) give `unit`: g, cm/s2 "
       "or m/s2",
-      text.name);
-  const double to_si = unit_factor(*format.unit, Dim::acceleration);
+      name);
+  return unit_factor(*format.unit, Dim::acceleration);
+}
 
+}  // namespace
+
+bool is_heading_line(std::string_view line) { return is_comment(line) || is_heading(line); }
+
+Record parse_columns(const RecordText& text, const RecordFormat& format) {
+  double to_si = kUnset;
   Record record{.motion = {.dt = kUnset, .acceleration = {}, .origin = text.name}, .notes = {}};
   std::size_t columns = 0;
   Choice choice;
   std::vector<TimedValue> times;
+  std::vector<Heading> headings;
   std::vector<double> row;
   for (std::size_t i = 0; i < text.lines.size(); ++i) {
     const std::string& line = text.lines[i];
     if (trimmed(line).empty()) continue;
-    if (columns == 0 && (is_comment(line) || is_heading(line))) {
+    if (columns == 0 && is_heading_line(line)) {
       record.notes.push_back(fmt::format("{}:{}: heading skipped", text.name, i + 1));
+      headings.push_back({i + 1, line});
       continue;
     }
     row.clear();
@@ -111,6 +145,8 @@ Record parse_columns(const RecordText& text, const RecordFormat& format) {
     if (columns == 0) {
       columns = row.size();
       choice = choose_columns(text.name, columns, format);
+      compare_units(text.name, headings, choice.acceleration, columns, format.unit);
+      to_si = factor_to_si(text.name, format);
     }
     validate(row.size() == columns, "{}:{}: {} columns, but the first row has {}", text.name, i + 1,
              row.size(), columns);

@@ -64,23 +64,24 @@ void refuse_foreign_format(const RecordText& text) {
 
 std::vector<std::string> implausible(const std::string& name, double peak, double step) {
   std::vector<std::string> odd;
+  const std::string of = name.empty() ? "" : name + ": ";
   // The largest peaks ever recorded on the ground are 3 to 4 g; below 0.0005 g nobody feels it.
   constexpr double kMost = 3.0 * kGravity, kLeast = 5e-4 * kGravity;
   if (peak > kMost)
     odd.push_back(fmt::format(
-        "{}: the peak is {:.3g} g. Hardly any record exceeds 3 g; is the unit of acceleration "
+        "{}the peak is {:.3g} g. Hardly any record exceeds 3 g; is the unit of acceleration "
         "right?",
-        name, peak / kGravity));
+        of, peak / kGravity));
   if (peak < kLeast)
     odd.push_back(fmt::format(
-        "{}: the peak is {:.2g} g, which nobody would feel. Is the unit of acceleration right?",
-        name, peak / kGravity));
+        "{}the peak is {:.2g} g, which nobody would feel. Is the unit of acceleration right?", of,
+        peak / kGravity));
   // Records have 0.001 to 0.02 s; in 0.1 s nothing is left above 5 Hz.
   if (!(step >= 1e-4 && step <= 0.1))
     odd.push_back(fmt::format(
-        "{}: the time step is {:.3g} s, where records have 0.001 to 0.02 s. Is the unit of time "
+        "{}the time step is {:.3g} s, where records have 0.001 to 0.02 s. Is the unit of time "
         "right?",
-        name, step));
+        of, step));
   return odd;
 }
 

@@ -12,7 +12,7 @@ namespace flowslide {
 void refuse_foreign_format(const RecordText& text);
 
 /// A peak that cannot be that of an earthquake or is too small to matter, and a time step in which
-/// no recorder records, as sentences.
+/// no recorder records, as sentences; they start with the name, if it is not empty.
 std::vector<std::string> implausible(const std::string& name, double peak, double step);
 
 }  // namespace flowslide

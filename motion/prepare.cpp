@@ -69,9 +69,12 @@ void Schema<MotionConfig>::describe(FieldVisitor& v, MotionConfig& c) {
   v.text("unit", c.format.unit,
          "unit of acceleration in a record that does not state it: g, cm/s2, m/s2");
   v.quantity("dt", c.format.dt, Dim::time, {.above = 0.0}, "time step of a record of one column");
-  v.integer("time_column", c.format.time_column, {.min = 0}, "from 1; 0: see the guide");
+  v.integer(
+      "time_column", c.format.time_column, {.min = 0},
+      "column of time, counted from 1; 0: the first of two, and with acceleration_column none");
   v.integer("acceleration_column", c.format.acceleration_column, {.min = 0},
-            "from 1; 0: see the guide");
+            "column of acceleration, counted from 1; 0: the only one or the second of two; a wider "
+            "file needs it");
   v.flag("accept_count", c.format.accept_count,
          "use an AT2 file whose number of values is not its NPTS");
   v.text("preset", c.preset, "synthetic stand-in for a motion of Table 4 of the paper, by name");
@@ -131,9 +134,16 @@ GroundMotion prepare_motion(const MotionConfig& config, const Progress& progress
   if (config.pga && (config.record || config.synthetic || changed))
     motion = scaled_to_pga(motion, *config.pga);
   if (warnings)
-    for (std::string& odd : implausible("the motion", pga(motion), motion.dt))
+    for (std::string& odd : implausible("", pga(motion), motion.dt))
       warnings->push_back(std::move(odd));
   return motion;
+}
+
+std::optional<double> made_duration(const MotionConfig& config) {
+  if (config.record) return std::nullopt;
+  if (config.filter && config.filter->keep_padding) return std::nullopt;
+  return synthetic_duration(config.preset ? preset_config(*config.preset, *config.pga)
+                                          : *config.synthetic);
 }
 
 }  // namespace flowslide

@@ -41,6 +41,11 @@ void check(const MotionConfig& config);
 GroundMotion prepare_motion(const MotionConfig& config, const Progress& progress = {},
                             std::vector<std::string>* warnings = nullptr);
 
+/// How long a preset or synthetic motion becomes, without making it [s]; resampling may cut less
+/// than one of its steps off. Empty for records and where only making it would tell. Throws
+/// InputError.
+std::optional<double> made_duration(const MotionConfig& config);
+
 template <>
 struct Schema<MotionConfig> {
   static constexpr std::string_view doc =

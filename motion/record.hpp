@@ -1,5 +1,6 @@
 #pragma once
 #include "model/ground_motion.hpp"
+#include "motion/record_text.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -32,7 +33,15 @@ struct Record {
 /// Throws FileError, InputError with file:line.
 Record read_record(const std::filesystem::path& path, const RecordFormat& format = {});
 
-/// The same for text that is in memory; `name` is for messages.
+/// Whether first lines are those of a record of acceleration: of AT2, of a format that is known and
+/// not read, or a heading that names accelerations or their unit.
+bool is_record(const RecordText& head);
+
+/// The unit of acceleration that the header or the headings give; empty if none does. Throws
+/// InputError for a wrong AT2 header.
+std::optional<std::string> stated_unit(const RecordText& text);
+
+/// read_record() for text that is in memory; `name` is for messages.
 Record parse_record(std::string_view text, std::string name, const RecordFormat& format = {});
 
 }  // namespace flowslide

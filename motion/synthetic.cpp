@@ -161,11 +161,8 @@ double root_near(F&& f, double x, double tolerance) {
   return exp(c);
 }
 
-}  // namespace
-
-GroundMotion synthesize(const SyntheticConfig& config, const Progress& progress) {
-  constexpr double kTolerance = 2e-3;
-  constexpr int kRounds = 20;
+/// Number of samples.
+std::size_t count_samples(const SyntheticConfig& config) {
   check_settings(config);
   // Three quarters of it, 2.6 durations, hold all but 1 % of the energy of any envelope.
   const double length = config.lead + 3.5 * config.d5_95;
@@ -173,8 +170,19 @@ GroundMotion synthesize(const SyntheticConfig& config, const Progress& progress)
            "synthetic motion: {:.4g} s at a step of {} s are {:.3g} samples (at most {:g}) raise "
            "dt or shorten lead",
            length, config.dt, length / config.dt, kMostSamples);
-  const std::size_t n = transform_size(static_cast<std::size_t>(length / config.dt));
-  std::vector<double> noise(n);
+  return transform_size(static_cast<std::size_t>(length / config.dt));
+}
+
+}  // namespace
+
+double synthetic_duration(const SyntheticConfig& config) {
+  return config.dt * static_cast<double>(count_samples(config) - 1);
+}
+
+GroundMotion synthesize(const SyntheticConfig& config, const Progress& progress) {
+  constexpr double kTolerance = 2e-3;
+  constexpr int kRounds = 20;
+  std::vector<double> noise(count_samples(config));
   Random random(config.seed);
   for (double& x : noise) x = random.normal();
 

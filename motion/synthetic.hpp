@@ -32,6 +32,9 @@ struct SyntheticConfig {
 /// together.
 GroundMotion synthesize(const SyntheticConfig& config, const Progress& progress = {});
 
+/// Of the motion that synthesize() makes [s]. Throws InputError for settings out of range.
+double synthetic_duration(const SyntheticConfig& config);
+
 /// A motion of the parametric study of Sordo, Rathje and Kumar (2025), Table 4: what the paper
 /// gives for the record, and the settings whose motion resembles it.
 struct MotionPreset {

@@ -61,7 +61,7 @@ std::string key_numbers(const ReportFacts& f, const ReportConfig& c) {
       {"front, x (fifth-farthest point)", number(f.front, 2, "m")},
       {"farthest point, x", number(f.front_farthest, 2, "m")}};
   for (const auto& [window, depth] : f.liquefaction_depth)
-    rows.emplace_back("depth of liquefaction, " + window, number(depth, 2, "m"));
+    rows.emplace_back("depth of liquefaction, " + window_label(window), number(depth, 2, "m"));
   rows.insert(
       rows.end(),
       {{"transfer time from the start of the motion", number(f.transfer_time, 3, "s")},
@@ -113,7 +113,7 @@ std::string liquefaction(const ReportInputs& in, const ReportFacts& f) {
   const auto add_depths = [&rows, &zone](const std::string& rule,
                                          const std::vector<double>& depth) {
     for (std::size_t w = 0; w < depth.size(); ++w)
-      rows.emplace_back(zone.window_names[w] + rule, number(depth[w], 2, "m"));
+      rows.emplace_back(window_label(zone.window_names[w]) + rule, number(depth[w], 2, "m"));
   };
   add_depths(", up to the transfer", zone.window_depth_max);
   add_depths(", where r_u passes the threshold between nodes", zone.window_depth_interpolated);

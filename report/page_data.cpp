@@ -47,7 +47,7 @@ Json add_zone(PageArrays& arrays, const ZoneHistory& h) {
   for (std::size_t w = 0; w < h.window_names.size(); ++w) {
     arrays.add(fmt::format("zone.depth{}", w), h.depth.at(w));
     arrays.add(fmt::format("zone.deepest{}", w), h.depth_max.at(w));
-    windows.push_back(h.window_names[w]);
+    windows.push_back(window_label(h.window_names[w]));
   }
   arrays.add("zone.kinetic", h.kinetic_energy_relative);
   arrays.add("zone.quality", h.distortion_gauss);

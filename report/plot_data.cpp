@@ -58,7 +58,7 @@ void write_plot_data(const std::filesystem::path& folder, const FemHistory& hist
   j["lower_boundary"] = zone.lower_boundary;
   j["windows"] = Json::array();
   for (const std::string& name : zone.history.window_names)
-    j["windows"].push_back({{"name", name}, {"column", column_name(name)}});
+    j["windows"].push_back({{"name", window_label(name)}, {"column", column_name(name)}});
   j["materials"] = Json::array();
   for (const MaterialSpec& m : p.materials)
     j["materials"].push_back(

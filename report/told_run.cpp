@@ -215,9 +215,9 @@ std::string why(const ReportInputs& in, const ReportFacts& f, const FinalState& 
   std::string out = "**Why**\n\n";
   const Strength s = strength_of(in);
   for (const auto& [window, depth] : f.liquefaction_depth)
-    out +=
-        fmt::format("- {} soil liquefied to a depth of {:.1f} m.\n",
-                    window == "all" ? "The" : fmt::format("Under the {} the", cell(window)), depth);
+    out += fmt::format("- {} soil liquefied to a depth of {:.1f} m.\n",
+                       window == kWholeSoil ? "The" : fmt::format("Under the {} the", cell(window)),
+                       depth);
   if (s.area > 0.0)
     out += fmt::format(
         "- {:.0f} m2 of the section liquefied; its residual strength is {:.3g} kPa on average "

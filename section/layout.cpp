@@ -198,7 +198,7 @@ Layout lay_out(const SectionConfig& config) {
   SegmentList segments(layout, config);
   for (std::size_t b = 0; b < layout.blocks.size(); ++b)
     add_sides(layout, segments, origin, outlines[b], config, static_cast<int>(b));
-  check_boundary(layout);
+  layout.notes = check_boundary(layout);
   return layout;
 }
 

@@ -34,6 +34,7 @@ struct Layout {
   std::vector<Segment> segments;
   std::vector<LayoutBlock> blocks;  ///< in order of names
   double tolerance = 0.0;           ///< points nearer than this are one [m]
+  std::vector<std::string> notes;   ///< what is odd about the boundary
 };
 
 /// Finds what blocks share; a point of one block on the side of another divides that side. Throws

@@ -41,6 +41,7 @@ Vec2 point_inside(const std::vector<Vec2>& outline) {
 
 struct Loop {
   std::vector<Vec2> points;
+  std::vector<int> owner;  ///< block of the side from each point to the next
   std::set<int> blocks;
   double area = 0.0;
 };
@@ -70,6 +71,7 @@ std::vector<Loop> boundary_loops(const Layout& layout) {
     Loop loop;
     for (auto at = next.begin(); at != next.end();) {
       loop.points.push_back(layout.points[at->first]);
+      loop.owner.push_back(at->second.second);
       loop.blocks.insert(at->second.second);
       const int to = at->second.first;
       next.erase(at);
@@ -79,6 +81,30 @@ std::vector<Loop> boundary_loops(const Layout& layout) {
     loops.push_back(std::move(loop));
   }
   return loops;
+}
+
+/// Wedges of air of less than 30 degrees that the boundary leaves between two of its sides: nothing
+/// that stands as built has one.
+std::vector<std::string> open_wedges(const Layout& layout, const Loop& loop) {
+  constexpr double kCosine = 0.866;
+  std::vector<std::string> notes;
+  const std::size_t n = loop.points.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t before = (i + n - 1) % n;
+    const Vec2 p = loop.points[i], p_before = loop.points[before],
+               p_next = loop.points[(i + 1) % n];
+    const double length_a = distance(p, p_before), length_b = distance(p, p_next);
+    const Vec2 a{(p_before[0] - p[0]) / length_a, (p_before[1] - p[1]) / length_a};
+    const Vec2 b{(p_next[0] - p[0]) / length_b, (p_next[1] - p[1]) / length_b};
+    const bool inward = a[0] * b[1] - a[1] * b[0] > 0.0;
+    if (!inward || a[0] * b[0] + a[1] * b[1] < kCosine) continue;
+    const double length = std::min(length_a, length_b), width = distance(a, b) * length;
+    notes.push_back(fmt::format(
+        "a wedge is left open at ({:.6g}, {:.6g}), between the blocks {}: it is {:.3g} m wide {:.3g} "
+        "m away. If they touch there, give their sides the same points.",
+        p[0], p[1], block_names(layout, {loop.owner[before], loop.owner[i]}), width, length));
+  }
+  return notes;
 }
 
 }  // namespace
@@ -96,7 +122,7 @@ void check_overlaps(const Layout& layout) {
     }
 }
 
-void check_boundary(const Layout& layout) {
+std::vector<std::string> check_boundary(const Layout& layout) {
   const std::vector<Loop> loops = boundary_loops(layout);
   for (const Loop& loop : loops)
     validate(loop.area > 0.0,
@@ -108,6 +134,7 @@ void check_boundary(const Layout& layout) {
         "the section falls into {} parts: the blocks {} and the blocks {} share no side. Blocks "
         "that touch must name the same points",
         loops.size(), block_names(layout, loops[0].blocks), block_names(layout, loops[1].blocks)));
+  return open_wedges(layout, loops[0]);
 }
 
 }  // namespace flowslide

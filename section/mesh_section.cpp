@@ -116,6 +116,7 @@ SectionMesh mesh_section(const SectionConfig& given) {
   const Layout layout = lay_out(config);
   check_count(layout, config);
   SectionMesh section;
+  section.notes = layout.notes;
   QuadMesh& mesh = section.mesh;
   mesh = block_grids(layout, config, divide(layout, config));
   sort_by_place(mesh, layout.tolerance);

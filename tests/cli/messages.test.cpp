@@ -112,6 +112,30 @@ TEST_CASE("lines fit the terminal", "[cli]") {
   }
 }
 
+TEST_CASE("lines are whole in a file, and errors are wrapped on a terminal", "[cli]") {
+  const Scratch scratch;
+  write_model(scratch);
+  REQUIRE(run(scratch, shake()).code == 0);
+  const std::string long_name(90, 'x');
+  const std::string wrong = "check w.yaml --set stages.shake.with." + long_name + "=1 2>&1";
+  const std::string changes =
+      "run w.yaml --out out --dry-run --set stages.shake.with.sigma_zz.rule=elastic --set "
+      "stages.shake.with.sigma_zz.nu=0.3 --set stages.shake.with.materials.sand.density='1901 "
+      "kg/m3'";
+  const std::string whole = call(scratch, changes).out;
+  CHECK_THAT(whole, Contains("nu") && !Contains("..."));
+  CHECK(whole.find('\n') > 90);
+  const std::string error = call(scratch, "check w.yaml --set stages.shake.wiht=1").err;
+  CHECK(std::count(error.begin(), error.end(), '\n') == 1);
+  std::string shown = on_terminal(scratch, "check w.yaml --set stages.shake.wiht=1", 40);
+  CHECK(std::count(shown.begin(), shown.end(), '\n') > 2);
+  CHECK_THAT(on_terminal(scratch, wrong, 40), Contains(long_name));  // never cut
+  std::erase(shown, '\r');
+  for (std::size_t at = 0; (at = shown.find("\n       ")) != std::string::npos;)
+    shown.replace(at, 8, " ");
+  CHECK(shown == error);
+}
+
 TEST_CASE("numbers in two pairs of quotes and odd blanks are named", "[cli]") {
   const Scratch scratch;
   const auto check = [&](const std::string& with) {

@@ -1,4 +1,5 @@
 #include "config/manual.hpp"
+#include "core/conventions.hpp"
 #include "tests/config/sample.hpp"
 
 #include <regex>
@@ -9,6 +10,25 @@
 using namespace flowslide;
 using sample::Settings;
 using sample::YamlFile;
+
+namespace {
+
+/// A whole number without a default, and angles.
+struct Numbered {
+  int tag = 0;
+  double phi = 33.0 * kPi / 180.0;
+};
+
+}  // namespace
+
+template <>
+struct flowslide::Schema<Numbered> {
+  static constexpr std::string_view doc = "Something with a number.";
+  static void describe(FieldVisitor& v, Numbered& c) {
+    v.integer("tag", c.tag, {.min = 1}, "its number");
+    v.quantity("phi", c.phi, Dim::angle, {.max = 0.5 * kPi, .above = 0.0}, "an angle");
+  }
+};
 
 namespace {
 
@@ -83,6 +103,22 @@ TEST_CASE("the manual page has one row per key", "[config]") {
     CHECK_THAT(page, Catch::Contains(row));
 }
 
+TEST_CASE("a whole number whose default is out of range must be given", "[config]") {
+  CHECK_THAT(
+      sample::problem_of("phi: 30 deg\n",
+                         [](const auto& path) { read_settings<Numbered>(load_yaml(path), ""); }),
+      Catch::Contains("'tag' is missing (its number) add 'tag: 1'"));
+  const YamlFile file("tag: 7\n");
+  CHECK(read_settings<Numbered>(load_yaml(file.path()), "").tag == 7);
+  const auto schema = nlohmann::json::parse(json_schema<Numbered>());
+  CHECK(schema["required"] == nlohmann::json{"tag"});
+  CHECK_FALSE(schema["properties"]["tag"].contains("default"));
+  const std::string page = manual_page<Numbered>("x");
+  CHECK_THAT(page, Catch::Contains("| `tag` | whole number | required | at least 1 |"));
+  CHECK_THAT(page, Catch::Contains("`33 deg` | above 0 deg and at most 90 deg |"));
+  CHECK_THAT(schema["properties"]["phi"]["default"].get<std::string>(), Catch::Equals("33 deg"));
+}
+
 TEST_CASE("the JSON Schema demands units and refuses unknown keys", "[config]") {
   const auto schema = nlohmann::json::parse(json_schema<Settings>());
   CHECK(schema["additionalProperties"] == false);
@@ -93,7 +129,7 @@ TEST_CASE("the JSON Schema demands units and refuses unknown keys", "[config]") 
     CHECK(std::regex_match(good, length));
   for (const std::string bad : {"0.5", "0.5 kPa", "m", "x ${a}", "0.5 m ${a}", "1_0 m"})
     CHECK_FALSE(std::regex_match(bad, length));
-  CHECK(properties["slope"]["default"] == "0.1 rad");
+  CHECK(properties["slope"]["default"] == "5.72957795131 deg");
   CHECK(properties["method"]["anyOf"][0]["enum"] == nlohmann::json{"lattice", "gauss"});
   CHECK(properties["toe"]["minItems"] == 2);
   CHECK_FALSE(properties["base"].contains("default"));

@@ -48,6 +48,27 @@ TEST_CASE("a file is told by what is in it") {
   CHECK_THROWS_AS(inspect(scratch / "none"), FileError);
 }
 
+TEST_CASE("an earthquake record is told from a recorder") {
+  const Scratch scratch;
+  scratch.write("a.csv", "time (s), acc (cm/s2)\n0,10\n0.01,-20\n0.02,30\n");
+  const Json stated = inspect(scratch / "a.csv");
+  CHECK(stated["kind"] == "record");
+  CHECK(stated["unit"] == "cm/s2");
+  CHECK(stated["samples"] == 3);
+  CHECK(stated["pga_m_s2"].get<double>() == Approx(0.3));
+  CHECK(stated["problems"].empty());
+  scratch.write("b.csv", "time,acc\n0,10\n0.01,-20\n0.02,30\n");
+  const Json silent = inspect(scratch / "b.csv");
+  CHECK(silent["kind"] == "record");
+  CHECK(silent["unit"] == "not stated");
+  CHECK(silent["peak"] == 30.0);
+  scratch.write("k.txt", "Sampling Freq(Hz) 100Hz\nScale Factor 1(gal)/2\n 1 2 3 4 5 6 7 8\n");
+  CHECK_THAT(inspect(scratch / "k.txt")["problems"].dump(), Contains("K-NET"));
+  scratch.write("r.out", "0.0 1\n0.1 3\n");
+  CHECK(inspect(scratch / "r.out")["kind"] == "recorder");
+  CHECK_THAT(inspect(scratch / "r.out")["notes"].dump(), Contains("flowslide motion"));
+}
+
 TEST_CASE("a conversion is chosen by both ends") {
   const Scratch scratch;
   write_history(scratch / "h.h5");

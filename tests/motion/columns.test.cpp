@@ -51,6 +51,51 @@ TEST_CASE("two columns are time and acceleration", "[motion]") {
   CHECK(record.motion.acceleration == kExpected);
 }
 
+TEST_CASE("a heading with another unit than the setting is refused", "[motion]") {
+  const std::string rows = "0,1\n0.01,-2\n0.02,3\n";
+  for (const char* heading :
+       {"time (s), acc (cm/s2)\n", "t,a[CM/SEC^2]\n", "# Acceleration in cm/s\u00b2\n",
+        "time_s,acc_cm_s2\n", "Zeit; Beschleunigung (gal)\n", "# Units: cm/sec/sec\n"}) {
+    CAPTURE(heading);
+    CHECK_THAT(
+        message(heading + rows, {.unit = "g"}),
+        Contains("a.csv:1: the heading says cm/s2, but `unit` is g") && Contains("981 times"));
+    CHECK_THAT(message(heading + rows, {}), Contains("give `unit: cm/s2`"));
+    CHECK(message(heading + rows, {.unit = "cm/s2"}) == "no error");
+  }
+  for (const char* heading : {"time (s), acc (g)\n", "time,acc_g\n", "# in units of g\n"}) {
+    CAPTURE(heading);
+    CHECK_THAT(message(heading + rows, {.unit = "m/s2"}), Contains("the heading says g"));
+    CHECK(message(heading + rows, {.unit = "g"}) == "no error");
+  }
+}
+
+TEST_CASE("words in a heading that are no unit of the column count for nothing", "[motion]") {
+  const std::string rows = "0,1\n0.01,-2\n0.02,3\n";
+  for (const char* heading :
+       {"# peak 0.3 g at Loma, 341.7 cm/s2 before scaling\n", "# (G. Smith, station GS)\n",
+        "time (s), vel (cm/s)\n", "# in g or cm/s2, see the setting\n"})
+    CHECK(message(heading + rows, {.unit = "m/s2"}) == "no error");
+  // of three columns each has its own unit
+  const std::string wide = "t (s), a (g), b (cm/s2)\n0,1,2\n0.01,1,2\n0.02,1,2\n";
+  const RecordFormat second{.unit = "g", .time_column = 1, .acceleration_column = 2};
+  CHECK(message(wide, second) == "no error");
+  const RecordFormat third{.unit = "g", .time_column = 1, .acceleration_column = 3};
+  CHECK_THAT(message(wide, third), Contains("the heading says cm/s2"));
+}
+
+TEST_CASE("records tell themselves from other tables by their heads", "[motion]") {
+  const auto is = [](const std::string& text) { return is_record(record_text(text, "a")); };
+  CHECK(is("PEER\nX\nACCELERATION IN UNITS OF G\nNPTS= 3, DT= .01 SEC\n.1 -.2 .3\n"));
+  CHECK(is("Sampling Freq(Hz) 100Hz\nScale Factor 1(gal)/2\n 1 2 3 4 5 6 7 8\n"));
+  CHECK(is("time,acc\n0,1\n"));
+  CHECK(is("t a[cm/s2]\n0 1\n"));
+  CHECK_FALSE(is("0.0 1 2\n0.1 3 4\n"));
+  CHECK_FALSE(is("# node 17, vaccuum\n0.0 1 2\n"));
+  CHECK(stated_unit(record_text("t a[cm/s2]\n0 1\n", "a")) == "cm/s2");
+  CHECK_FALSE(stated_unit(record_text("t a\n0 1\n", "a")).has_value());
+}
+
 TEST_CASE("columns can be named", "[motion]") {
   const std::string text = "1 0.00 9 0.1\n2 0.01 9 -0.2\n3 0.02 9 0.3\n";
   CHECK_THAT(message(text, {.unit = "g"}), Contains("4 columns"));

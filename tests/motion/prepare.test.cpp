@@ -40,6 +40,27 @@ TEST_CASE("a record is processed in the declared order", "[motion]") {
   CHECK(o.find("resampled") < o.find("scaled"));
 }
 
+TEST_CASE("how long a made motion becomes is known before", "[motion]") {
+  const DataFolder folder;
+  for (const char* text :
+       {"preset: loma-prieta-lick\npga: 0.2 g\n",
+        "synthetic: {pga: 1 m/s2, tm: 0.4 s, d5_95: 2 s}\nfilter: {high_pass: 0.2 Hz}\n",
+        "synthetic: {pga: 1 m/s2, tm: 0.4 s, d5_95: 2 s}\nresample: {dt: 7 ms}\n"}) {
+    CAPTURE(text);
+    const MotionConfig config = read_config(folder, text);
+    const double made = prepare_motion(config).duration();
+    const double step = config.resample ? config.resample->dt : 0.0;
+    const double known = *made_duration(config);
+    CHECK(known >= made * (1.0 - 1e-12));
+    CHECK(known <= made * (1.0 + 1e-12) + step);
+  }
+  CHECK_FALSE(made_duration(read_config(folder, "record: m.csv\nunit: m/s2\n")).has_value());
+  CHECK_FALSE(made_duration(read_config(folder,
+                                        "preset: loma-prieta-lick\npga: 0.2 g\n"
+                                        "filter: {high_pass: 0.2 Hz, keep_padding: true}\n"))
+                  .has_value());
+}
+
 TEST_CASE("a record without processing stays what it is", "[motion]") {
   const DataFolder folder;
   const GroundMotion sine = harmonic(1.0, 2.0, 0.01, 10.0);

@@ -9,6 +9,8 @@
 #include <map>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 using namespace flowslide;
 using Catch::Matchers::Contains;
@@ -196,7 +198,7 @@ TEST_CASE("bad sections are explained") {
   CHECK_THAT(error("material: sand}", "material: sands}"), Contains("no material 'sands'"));
   CHECK_THAT(error("size: 1 m", "size: 1 mm"), Contains("elements") && Contains("units"));
   CHECK_THAT(error("{tag: 2}", "{tag: 1}"), Contains("tag 1 is that of another"));
-  CHECK_THAT(error("{tag: 2}", "{}"), Contains("has no tag"));
+  CHECK_THAT(error("{tag: 2}", "{}"), Contains("'tag' is missing"));
   const std::string set = "material: sand}\nsets: {pond: {line: [[0 m, 2 m], [2 m, 2.5 m]]}}";
   CHECK_THAT(error("material: sand}", set), Contains("set 'pond'") && Contains("0 m of"));
   // The inner corner of an L is no place for a side of one grid.
@@ -204,6 +206,27 @@ TEST_CASE("bad sections are explained") {
                    "[[2 m, 2 m], [4 m, 2 m], [4 m, 2.6 m], [2.6 m, 2.6 m], [2.6 m, 9 m], "
                    "[2 m, 9 m]], corners: [1, 2, 5, 6], material"),
              Contains("block 'above'") && Contains("folds over"));
+}
+
+TEST_CASE("a wedge left open between blocks is told with its place and width") {
+  const auto notes = [](const std::string& bottom) {
+    const SectionMesh s = mesh_section(section_of(R"(
+size: 0.5 m
+materials: {sand: {tag: 1}}
+blocks:
+  below: {outline: [[0 m, 0 m], [6 m, 0 m], [6 m, 2 m], [0 m, 2 m]], material: sand}
+  above: {outline: [[2 m, 2 m], [3 m, 2 m], )" + bottom +
+                                                  R"(, [4 m, 5 m], [2 m, 5 m]],
+          corners: [1, 3, 4, 5], material: sand}
+)"));
+    return fmt::format("{}", fmt::join(s.notes, "\n"));
+  };
+  // 2 sin(11.31/2 deg) times the shorter side, 1.02 m
+  CHECK_THAT(notes("[4 m, 2.2 m]"), Contains("wedge is left open at (3, 2)") &&
+                                        Contains("'above', 'below'") &&
+                                        Contains("0.201 m wide 1.02 m away"));
+  CHECK_THAT(notes("[4 m, 2 m]"), !Contains("wedge"));    // control: closed
+  CHECK_THAT(notes("[4 m, 2.6 m]"), !Contains("wedge"));  // 31 degrees
 }
 
 TEST_CASE("holes between blocks are found") {

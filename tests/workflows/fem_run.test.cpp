@@ -322,3 +322,59 @@ TEST_CASE("shaking that never fails runs to its end, whatever may stop it", "[wo
   CHECK(read_text_file(shake_file(c, part, "part")) == read_text_file(shake_file(c, all, "all")));
   CHECK(read_text_file(zone_file(c, part, "part")) == read_text_file(zone_file(c, all, "all")));
 }
+
+namespace {
+
+std::string refusal(const Case& c, const std::string& text,
+                    const std::vector<std::string>& set = {}) {
+  try {
+    (void)c.load(text.c_str(), set);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "no error";
+}
+
+}  // namespace
+
+TEST_CASE("a transfer after the end of the motion is refused before anything runs", "[workflows]") {
+  const Case c;
+  // 3.5 times the significant duration of 4 s, rounded up to a length that transforms well
+  for (const bool stops : {false, true}) {
+    const std::string text = slope(stops, "0.4 g");
+    const auto at = [&](const char* time) {
+      return refusal(c, text,
+                     {"stages.shake.with.end=null", "stages.zone.with.when=at",
+                      std::string("stages.zone.with.at=") + time});
+    };
+    const std::string error = at("100 s");
+    CHECK_THAT(error, Contains("at: 100 s, but the shaking ends at 14") &&
+                          Contains(stops ? "shake.with.stop_at_transfer.at" : "zone.with.at"));
+    CHECK(std::count(error.begin(), error.end(), '\n') == 0);  // told once
+    CHECK(at("13 s") == "no error");
+  }
+  // the end of fem.run goes before that of the motion
+  const auto with_end = [&](const char* end) {
+    return refusal(c, slope(false, "0.4 g"),
+                   {std::string("stages.shake.with.end=") + end, "stages.zone.with.when=at",
+                    "stages.zone.with.at=13 s"});
+  };
+  CHECK_THAT(with_end("5 s"), Contains("the shaking ends at 5 s"));
+  CHECK(with_end("20 s") == "no error");
+}
+
+TEST_CASE("a window outside the soil is told with the line on which it stands", "[workflows]") {
+  const Case c;
+  for (const bool stops : {false, true}) {
+    std::string text = slope(stops, "0.4 g");
+    const std::size_t at = text.find("{from: 0 m, to: 20 m}");
+    text.replace(at, 21, "{from: 40 m, to: 50 m}");
+    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(at), '\n');
+    const std::string error = refusal(c, text);
+    CHECK_THAT(error, Contains(fmt::format("case.yaml:{}:", line)) &&
+                          Contains(stops ? "stages.shake.with.stop_at_transfer.windows.all: no node"
+                                         : "stages.zone.with.windows.all: no node"));
+    if (stops)
+      CHECK_THAT(error, Contains("(the value comes from ${stages.zone.with.windows.all})"));
+  }
+}

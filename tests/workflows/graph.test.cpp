@@ -56,6 +56,25 @@ TEST_CASE("settings can be overridden from outside", "[workflows]") {
   CHECK_THAT(w.stages[0].prepared.settings, Contains("value = 7"));
 }
 
+TEST_CASE("overrides that leave out a part of the path are told the whole", "[workflows]") {
+  const Scratch scratch;
+  const auto meant = [&](const std::string& option) {
+    try {
+      (void)load(scratch, kNumber, {option});
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string("no error");
+  };
+  for (const char* option : {"one.value=2", "one.with.value=2", "stages.one.value=2"})
+    CHECK_THAT(meant(option), Contains("Did you mean 'stages.one.with.value'?"));
+  CHECK_THAT(meant("one.list.value=2"), Contains("Did you mean 'stages.one.with.list.value'?"));
+  CHECK_THAT(meant("onne.value=2"), Contains("'stages.one.with.value'"));
+  CHECK_THAT(meant("nothing.value=2"), Contains("Known: schema"));
+  CHECK_THAT(meant("stages.one.usse=2"), Contains("Did you mean 'uses'?"));
+  CHECK(meant("stages.one.with.value=2") == "no error");
+}
+
 TEST_CASE("wrong graphs are refused with place, reason and suggestion", "[workflows]") {
   SECTION("unknown stage type") {
     const std::string text = problem("  one: {uses: sample.numbr}\n");
@@ -95,6 +114,10 @@ TEST_CASE("wrong graphs are refused with place, reason and suggestion", "[workfl
     CHECK_THAT(problem("  one: {uses: sample.number, wiht: {value: 1}}\n"),
                Contains("unknown key 'wiht'") && Contains("Did you mean 'with'?"));
     CHECK_THAT(problem("  one: {uses: sample.number, with: {valu: 1}}\n"), Contains("valu"));
+  }
+  SECTION("settings beside `with`") {
+    CHECK_THAT(problem("  one: {uses: sample.number, value: 1}\n"),
+               Contains("unknown key 'value'") && Contains("mean 'stages.one.with.value'?"));
   }
   SECTION("a relation between settings") {
     CHECK_THAT(problem("  one: {uses: sample.number, with: {value: 13}}\n"),

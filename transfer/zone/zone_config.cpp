@@ -1,6 +1,7 @@
 #include "transfer/zone/zone_config.hpp"
 
 #include "core/check.hpp"
+#include "model/zone.hpp"
 
 #include <cmath>
 #include <limits>
@@ -96,7 +97,7 @@ void check_points(std::string_view key, const std::vector<std::vector<double>>& 
 
 DepthWindows windows_or_all(const TransferRuleConfig& c) {
   constexpr double far = std::numeric_limits<double>::infinity();
-  return c.windows.empty() ? DepthWindows{{"all", {-far, far}}} : c.windows;
+  return c.windows.empty() ? DepthWindows{{std::string(kWholeSoil), {-far, far}}} : c.windows;
 }
 
 void check(const TransferRuleConfig& c) {

@@ -62,8 +62,9 @@ ZoneParts divide(const QuadMesh& mesh, const std::vector<HistoryMaterial>& mater
     parts.soil.push_back(static_cast<std::int32_t>(e));
     parts.in_soil[e] = 1;
   }
-  validate(!parts.soil.empty(),
-           "the box holds no liquefiable element (nothing can liquefy) check box and liquefiable");
+  validate(
+      !parts.soil.empty(),
+      "box: no liquefiable element lies in it (nothing can liquefy) check box and liquefiable");
   parts.base_nodes = config.base_nodes.empty() ? lowest_nodes(mesh, parts.section)
                                                : tagged_nodes(mesh, config.base_nodes);
   return parts;

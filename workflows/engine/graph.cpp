@@ -1,6 +1,7 @@
 #include "workflows/engine/graph.hpp"
 
 #include "workflows/engine/names.hpp"
+#include "workflows/engine/unknown_key.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -38,20 +39,6 @@ class Problems {
   std::vector<std::string> lines_;
   bool wrong_input_ = false;
 };
-
-std::string did_you_mean(std::string_view word, const std::vector<std::string>& known) {
-  const auto near = nearest(word, known);
-  return near ? fmt::format("Did you mean '{}'?", *near)
-              : fmt::format("Known: {}.", fmt::join(known, ", "));
-}
-
-void refuse_unknown_keys(const YamlNode& map, const std::vector<std::string>& known) {
-  for (const auto& [key, value] : map.entries()) {
-    if (std::find(known.begin(), known.end(), key) == known.end())
-      throw value.error(fmt::format("unknown key '{}' (it would have no effect). {}", key,
-                                    did_you_mean(key, known)));
-  }
-}
 
 std::vector<std::string> names(const std::vector<Port>& ports) {
   std::vector<std::string> out;
@@ -181,7 +168,8 @@ std::vector<WorkflowStage> sort_stages(std::vector<Draft>& drafts) {
 InputError locate(const YamlNode& node, const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(node.error(line).what());
+  for (std::string line; std::getline(in, line);)
+    lines.push_back(detail::locate(node, line).what());
   return InputError(fmt::format("{}", fmt::join(lines, "\n")));
 }
 
@@ -244,7 +232,7 @@ std::vector<Draft> draft_stages(const Entries& entries, std::span<const StageTyp
             fmt::format("'{}' cannot be a stage's name (it becomes a folder). "
                         "Use letters, digits, '-' and '_'.",
                         name));
-      refuse_unknown_keys(node, {"uses", "in", "with"});
+      refuse_unknown_stage_keys(node, {"uses", "in", "with"});
       std::vector<std::string> others;
       for (const auto& [other, unused] : entries)
         if (other != name) others.push_back(other);
@@ -277,7 +265,7 @@ Workflow load_workflow(const std::filesystem::path& path, std::span<const std::s
       .name = {}, .file = path, .overrides = {overrides.begin(), overrides.end()}, .stages = {}};
   Problems problems;
   problems.collect([&] {
-    refuse_unknown_keys(document, {"schema", "name", "description", "stages"});
+    refuse_unknown_top_keys(document, {"schema", "name", "description", "stages"});
   });
   problems.collect([&] { check_schema(document); });
   problems.collect([&] { workflow.name = workflow_name(document); });

@@ -6,12 +6,11 @@
 #include <fmt/format.h>
 
 namespace flowslide::detail {
+namespace {
 
-FileError locate_file(const YamlNode& settings, std::string_view text) {
-  const std::size_t colon = text.find(": ");
-  if (colon == std::string_view::npos) return FileError(settings.error(text).what());
-  std::string_view path = text.substr(0, colon);
-  YamlNode node = settings;
+/// The setting that a path names, or the last one above it that is written; what was passed is
+/// taken off the path.
+YamlNode follow(YamlNode node, std::string_view& path) {
   while (!path.empty() && node.kind() == YamlNode::Kind::map) {
     const std::string_view key = path.substr(0, path.find('.'));
     const auto child = node.find(key.starts_with('"') ? key.substr(1, key.size() - 2) : key);
@@ -19,6 +18,27 @@ FileError locate_file(const YamlNode& settings, std::string_view text) {
     node = *child;
     path.remove_prefix(std::min(key.size() + 1, path.size()));
   }
+  return node;
+}
+
+}  // namespace
+
+InputError locate(const YamlNode& settings, std::string_view text) {
+  const std::string_view word = text.substr(0, text.find(' '));
+  const bool named = word.ends_with(':');
+  if (word.size() == text.size() || (!named && word.find('.') == std::string_view::npos))
+    return settings.error(text);
+  std::string_view rest = named ? word.substr(0, word.size() - 1) : word;
+  const YamlNode node = follow(settings, rest);
+  const std::size_t passed = rest.empty() ? word.size() + 1 : word.size() - rest.size() - named;
+  return node.error(text.substr(passed));
+}
+
+FileError locate_file(const YamlNode& settings, std::string_view text) {
+  const std::size_t colon = text.find(": ");
+  if (colon == std::string_view::npos) return FileError(settings.error(text).what());
+  std::string_view path = text.substr(0, colon);
+  const YamlNode node = follow(settings, path);
   // A default, or an entry of a list: the place of what is written above it.
   if (node.kind() != YamlNode::Kind::scalar) return FileError(node.error(text).what());
   const std::filesystem::path file = node.folder() / node.scalar();

@@ -180,6 +180,10 @@ template <class S>
 requires requires { S::dated; }
 inline constexpr bool kDated<S> = S::dated;
 
+/// A problem, "path.of.setting: why" or "path.of.setting is ...", at the place where the setting is
+/// written, or at that of all settings.
+InputError locate(const YamlNode& settings, std::string_view text);
+
 /// A FileError of canonical_text, "path.of.setting: why", at the place where the file is named.
 FileError locate_file(const YamlNode& settings, std::string_view text);
 
@@ -231,7 +235,7 @@ StageType stage_type() {
       try {
         S::check(config);
       } catch (const InputError& e) {
-        throw with.value_or(stage).error(e.what());
+        throw with ? detail::locate(*with, e.what()) : stage.error(e.what());
       }
     }
     PreparedStage prepared;

@@ -82,6 +82,15 @@ void check_freeboard(double pond, const QuadMesh& mesh, std::optional<double> po
         *pond_surface));
 }
 
+void check_transfer_time(const TransferRuleConfig& rule, double end, std::string_view above,
+                         Findings& found) {
+  if (rule.transfer.at && *rule.transfer.at > end * (1.0 + 1e-9))
+    found.errors.push_back(fmt::format(
+        "{}at: {:g} s, but the shaking ends at {:g} s (there is no state to transfer) choose an "
+        "earlier time or a later `end` of fem.run",
+        above, *rule.transfer.at, end));
+}
+
 void compare_transfer_rules(const StopAtTransferConfig& stop, const ZoneConfig& zone,
                             Findings& found) {
   const std::string changes =
@@ -91,8 +100,7 @@ void compare_transfer_rules(const StopAtTransferConfig& stop, const ZoneConfig& 
     found.warnings.push_back(fmt::format(
         "the shaking ends by another rule than the one that chooses the transfer here: from "
         "stop_at_transfer of fem.run to this stage {}. The time chosen may be another than with "
-        "the "
-        "whole shaking.",
+        "the whole shaking.",
         changes));
 }
 

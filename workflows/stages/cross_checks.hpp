@@ -10,6 +10,7 @@
 
 #include <limits>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 /// Settings against each other and against the section, before anything runs. What cannot be is an
@@ -76,6 +77,10 @@ void check_pond(const TransferRuleConfig& rule, const QuadMesh& mesh,
 /// known.
 void check_freeboard(double pond, const QuadMesh& mesh, std::optional<double> pond_surface,
                      Findings& found);
+/// A transfer at a given time against the end of the shaking [s]; `above` is the path of the
+/// rule's settings, with its dot.
+void check_transfer_time(const TransferRuleConfig& rule, double end, std::string_view above,
+                         Findings& found);
 /// Settings of fem.run's stop_at_transfer that transfer.zone has otherwise.
 void compare_transfer_rules(const StopAtTransferConfig& stop, const ZoneConfig& zone,
                             Findings& found);

@@ -88,15 +88,19 @@ struct FemRun {
     check_fem_soils(config, found);
     p.stop = config.stop_at_transfer;
     p.shakes = true;
-    p.end = config.end;
+    p.end = config.end ? config.end : p.motion_end;
     p.water = config.water;
+    if (p.stop && p.end) check_transfer_time(*p.stop, *p.end, "stop_at_transfer.", found);
     if (!p.section) return p;
     found.work = shaking_work(config, p.section->mesh, config.stop_at_transfer.has_value());
     check_water(config, p.section->mesh, found);
     (void)fem::build_model(*p.section, config);  // names, sets and ends against the mesh
     p.materials = fem::history_materials(*p.section, config);
-    if (config.stop_at_transfer)
-      (void)zone_parts(p.section->mesh, p.materials, *config.stop_at_transfer);
+    if (config.stop_at_transfer) try {
+        (void)zone_parts(p.section->mesh, p.materials, *config.stop_at_transfer);
+      } catch (const InputError& e) {
+        throw InputError(fmt::format("stop_at_transfer.{}", e.what()));
+      }
     return p;
   }
   static StageResult run(const RunContext& context, Config config, const Inputs& in,

@@ -27,9 +27,11 @@ struct MotionPrepareStage {
   static void check(const Config& config) { flowslide::check(config); }
   /// Reading a record takes less than a second; making a motion takes longer and opens no file.
   static std::any preview(const Config& config, const Previews&, Findings& found) {
-    if (config.record) (void)prepare_motion(config, {}, &found.warnings);
+    Preview p;
+    p.motion_end = config.record ? prepare_motion(config, {}, &found.warnings).duration()
+                                 : made_duration(config);
     found.work = motion_work();
-    return Preview{};
+    return p;
   }
   static StageResult run(const RunContext& context, const Config& config, const Inputs&,
                          const Outputs& out) {

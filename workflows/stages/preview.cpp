@@ -7,6 +7,7 @@ Preview merged(const Previews& inputs) {
   for (const auto& [port, value] : inputs) {
     const auto* p = std::any_cast<Preview>(&value);
     if (!p) continue;
+    if (!all.motion_end) all.motion_end = p->motion_end;
     if (!all.section) all.section = p->section;
     all.shakes = all.shakes || p->shakes;
     if (!all.end) all.end = p->end;

@@ -34,7 +34,8 @@ std::vector<Headline> headlines(const ReportFacts& f) {
                               f.toe - f.front);
   std::vector<Headline> all{std::move(runout)};
   for (const auto& [window, depth] : f.liquefaction_depth)
-    all.push_back({"liquefaction_depth_" + window + "_m", "liquefaction depth, " + window, "m"});
+    all.push_back({"liquefaction_depth_" + window + "_m",
+                   "liquefaction depth, " + window_label(window), "m"});
   all.push_back({"transfer_time_s", "transfer at", "s"});
   all.push_back({"mass_error", "mass error"});
   all.push_back({"energy_error", "energy error"});
@@ -53,7 +54,7 @@ std::optional<GroundMotion> motion_of(const std::vector<EarlierStage>& stages) {
 struct ReportStage {
   static constexpr std::string_view name = "report.runout";
   static constexpr std::string_view doc = "Facts, figures, tables and ParaView files of a runout.";
-  static constexpr int version = 5;
+  static constexpr int version = 6;
   static constexpr bool checkpoints = false;
   static constexpr bool reads_warnings = true;
   static constexpr bool reads_earlier = true;

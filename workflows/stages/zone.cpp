@@ -53,7 +53,7 @@ void add_depths(nlohmann::ordered_json& facts, const LiquefactionZone& zone, std
 struct ZoneStage {
   static constexpr std::string_view name = "transfer.zone";
   static constexpr std::string_view doc = "Finds the liquefied zone and the time of transfer.";
-  static constexpr int version = 4;
+  static constexpr int version = 5;
   static constexpr bool checkpoints = false;
   using Config = ZoneConfig;
   struct Inputs {
@@ -70,11 +70,8 @@ struct ZoneStage {
     check_strength(config.strength, found);
     if (p.stop) compare_transfer_rules(*p.stop, config, found);
     p.zone = config;
-    if (p.end && config.transfer.at && *config.transfer.at > *p.end * (1.0 + 1e-9))
-      found.errors.push_back(fmt::format(
-          "at: {:g} s, but the shaking ends at {:g} s (there is no state to transfer) choose an "
-          "earlier time or a later `end` of fem.run",
-          *config.transfer.at, *p.end));
+    const bool told = p.stop && p.stop->transfer.at == config.transfer.at;
+    if (!told && p.end) check_transfer_time(config, *p.end, "", found);
     if (!p.section) return p;
     found.work = zone_work(p.section->mesh, p.shakes, p.end);
     if (p.materials.empty()) return p;
@@ -93,7 +90,7 @@ struct ZoneStage {
       add_depths(facts, zone, i);
       const std::string& name = zone.window_names[i];
       result.headlines.push_back(
-          {"liquefaction_depth_" + name + "_m", "liquefaction depth, " + name, "m"});
+          {"liquefaction_depth_" + name + "_m", "liquefaction depth, " + window_label(name), "m"});
     }
     result.headlines.push_back({"transfer_time_s", "transfer at", "s"});
     if (is_set(zone.onset_time)) facts["onset_time_s"] = zone.onset_time;
