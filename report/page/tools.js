@@ -21,7 +21,8 @@ function draw(tag, attributes = {}, ...children) {
 /** Steps of 1, 2 or 5 between which about `count` fit. */
 function ticks(low, high, count) {
   const raw = (high - low) / Math.max(count, 1);
-  if (!(raw > 0) || !isFinite(raw)) return [low];
+  // of a range of rounding alone no step can be counted through
+  if (!(raw > 1e-10 * Math.max(Math.abs(low), Math.abs(high))) || !isFinite(raw)) return [low];
   const power = 10 ** Math.floor(Math.log10(raw));
   const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= raw * 0.999);
   const out = [];

@@ -13,14 +13,22 @@ constexpr double kWidth = 520.0, kHeight = 340.0;
 constexpr double kLeft = 62.0, kRight = 16.0, kTop = 30.0, kBottom = 48.0;
 constexpr std::size_t kColours = 6;
 
+/// Values that differ by rounding alone are one value.
+bool apart(double low, double high) {
+  return high - low > 1e-9 * std::max(std::abs(low), std::abs(high));
+}
+
 std::string series_class(std::size_t series) { return fmt::format("s{}", series % kColours); }
+
+/// Room on either side of one value.
+double beside(double value) { return std::max(0.05 * std::abs(value), 1.0); }
 
 /// Room for a plot with its axes.
 class Frame {
  public:
   Frame(double x0, double x1, double y0, double y1) : x0_(x0), x1_(x1), y0_(y0), y1_(y1) {
-    const double dx = x1_ > x0_ ? 0.04 * (x1_ - x0_) : 1.0;
-    const double dy = y1_ > y0_ ? 0.06 * (y1_ - y0_) : 1.0;
+    const double dx = apart(x0, x1) ? 0.04 * (x1 - x0) : beside(x0);
+    const double dy = apart(y0, y1) ? 0.06 * (y1 - y0) : beside(y0);
     x0_ -= dx;
     x1_ += dx;
     y0_ -= dy;
@@ -71,7 +79,7 @@ void draw_legend(Svg& svg, const ScatterChart& chart) {
 
 std::vector<double> round_numbers(double low, double high, int n) {
   std::vector<double> numbers;
-  if (!(high > low) || !std::isfinite(high - low)) return numbers;
+  if (!apart(low, high) || !std::isfinite(high - low)) return numbers;
   // Powers of ten by division: the library's pow may differ in its last bit.
   double unit = 1.0;
   const double wanted = (high - low) / n;
@@ -163,7 +171,7 @@ Svg draw_tornado(std::vector<Swing> swings, double usual_scatter, const std::str
     low = std::min({low, s.effect.low, s.effect.high});
     high = std::max({high, s.effect.low, s.effect.high});
   }
-  const double room = std::max(0.15 * (high - low), 1e-9);
+  const double room = apart(low, high) ? 0.15 * (high - low) : beside(low);
   low -= room;
   high += room;
   const auto x = [&](double v) {
