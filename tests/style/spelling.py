@@ -12,9 +12,9 @@ ENDINGS = {".cpp", ".hpp", ".md", ".py", ".sh", ".cmake", ".txt", ".yaml", ".bib
 FOLDERS = {"build", "runs", "fixtures", "corpus", "bad", "images", ".git", ".cache"}
 # Names and symbols: n^d of PM4Sand, a constant, people, journals, mechanics, papers that conclude
 # studies, and a trough in the ground.
-KNOWN = ["nd", "kinf", "hart", "numer", "statics", "theses", "trough", "co-ordinate"]
+KNOWN = ["nd", "kinf", "hart", "numer", "statics", "theses", "trough", "co-ordinate", "fro"]
 # Wrong on purpose, in tests of messages about misspelled words.
-WRONG_ON_PURPOSE = ["gaus", "wiht", "valu"]
+WRONG_ON_PURPOSE = ["gaus", "wiht", "valu", "vaccuum"]
 
 
 def files_below(root):

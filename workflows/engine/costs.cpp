@@ -1,5 +1,6 @@
 #include "workflows/engine/costs.hpp"
 
+#include "core/elementary.hpp"
 #include "workflows/engine/earlier.hpp"
 
 #include <algorithm>
@@ -52,9 +53,9 @@ struct Mean {
   double weight = 0.0, sum = 0.0;
   void add(double value, double w) {
     weight += w;
-    sum += w * std::log(value);
+    sum += w * log(value);
   }
-  [[nodiscard]] double value() const { return weight > 0.0 ? std::exp(sum / weight) : kUnset; }
+  [[nodiscard]] double value() const { return weight > 0.0 ? exp(sum / weight) : kUnset; }
 };
 
 double number_or_nan(const Json& json) { return json.is_null() ? kUnset : json.get<double>(); }

@@ -36,7 +36,8 @@ double smallest_height(const QuadMesh& mesh) {
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       const Vec2 &a = mesh.nodes[nodes[k]], &b = mesh.nodes[nodes[(k + 1) % nodes.size()]];
       twice_area += a[0] * b[1] - b[0] * a[1];
-      longest = std::max(longest, std::hypot(b[0] - a[0], b[1] - a[1]));
+      const double dx = b[0] - a[0], dy = b[1] - a[1];
+      longest = std::max(longest, std::sqrt(dx * dx + dy * dy));
     }
     if (longest > 0.0) least = std::min(least, 0.5 * std::abs(twice_area) / longest);
   }
