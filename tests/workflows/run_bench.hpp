@@ -60,7 +60,7 @@ struct RunBench {
   }
   /// Lets `act` happen when a stage has begun, before it reads anything.
   void during(const std::string& stage, std::function<void()> act) {
-    meanwhile = [=, this](const std::string& name) {
+    meanwhile = [=](const std::string& name) {
       if (name == stage) act();
     };
   }

@@ -91,11 +91,11 @@ struct ReportStage {
       found.errors.emplace_back(
           "the runout has three dimensions (the report draws sections) take this stage out of the "
           "workflow, and `flowslide convert` mpm.h5 for ParaView, docs/guide/valley.md");
-    for (const auto& [name, region] : config.regions)
+    for (const auto& [region_name, region] : config.regions)
       if (region.outline.size() < 3)
         found.errors.push_back(
             fmt::format("regions.{}: {} corners (a region needs three or more) give its outline",
-                        name, region.outline.size()));
+                        region_name, region.outline.size()));
     if (config.pond && p.section)
       check_freeboard(*config.pond, p.section->mesh,
                       p.zone ? std::optional(p.zone->pond_surface) : std::nullopt, found);

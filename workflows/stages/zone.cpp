@@ -88,9 +88,9 @@ struct ZoneStage {
     StageResult result{.facts = {}, .publish = {}, .warnings = zone_warnings(zone, config)};
     for (std::size_t i = 0; i < zone.window_names.size(); ++i) {
       add_depths(facts, zone, i);
-      const std::string& name = zone.window_names[i];
-      result.headlines.push_back(
-          {"liquefaction_depth_" + name + "_m", "liquefaction depth, " + window_label(name), "m"});
+      const std::string& window = zone.window_names[i];
+      result.headlines.push_back({"liquefaction_depth_" + window + "_m",
+                                  "liquefaction depth, " + window_label(window), "m"});
     }
     result.headlines.push_back({"transfer_time_s", "transfer at", "s"});
     if (is_set(zone.onset_time)) facts["onset_time_s"] = zone.onset_time;
