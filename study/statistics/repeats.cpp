@@ -6,6 +6,15 @@
 #include <map>
 
 namespace flowslide::study {
+namespace {
+
+/// Values that differ by rounding alone have no scatter.
+double scatter_of(const std::vector<double>& values, double mean) {
+  const double s = deviation(values);
+  return s < 1e-12 * std::abs(mean) ? 0.0 : s;
+}
+
+}  // namespace
 
 Repeats group_rows(const std::vector<std::size_t>& group) {
   Repeats repeats;
@@ -27,7 +36,7 @@ Scatter scatter(const Repeats& repeats, const std::vector<double>& values) {
     for (const std::size_t row : rows)
       if (is_set(values[row])) here.push_back(values[row]);
     s.mean.push_back(mean(here));
-    s.deviation.push_back(deviation(here));
+    s.deviation.push_back(scatter_of(here, s.mean.back()));
     if (!here.empty()) means.push_back(s.mean.back());
     if (here.size() < 2) continue;
     ++s.repeated;

@@ -126,6 +126,12 @@ TEST_CASE("Scatter of repeats is pooled over groups", "[study]") {
   CHECK_FALSE(is_set(scatter(group_rows({0, 1}), {1.0, 2.0}).numerical));
 }
 
+TEST_CASE("Repeats that differ by rounding alone have no scatter", "[study]") {
+  const Scatter s = scatter(group_rows({0, 0, 0}), {12.5, 12.500000000000004, 12.5});
+  CHECK(s.numerical == 0.0);
+  CHECK(scatter(group_rows({0, 0}), {12.5, 12.501}).numerical > 0.0);
+}
+
 TEST_CASE("An effect is the difference between the ends of an input", "[study]") {
   std::vector<double> x, y;
   std::vector<std::string> word;
