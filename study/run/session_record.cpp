@@ -6,7 +6,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <chrono>
+#include <csignal>
+#include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <sys/resource.h>
@@ -49,6 +52,20 @@ std::string utc_now() {
   return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts)};
 }
 
+/// Takes away what killed sessions of this machine were writing: ".BEGAN-PROCESS.json.....partial".
+void remove_leftovers(const fs::path& sessions) {
+  std::vector<fs::path> left;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(sessions, error)) {
+    const std::string name = entry.path().filename().string();
+    const std::size_t dash = name.rfind('-', name.find(".json."));
+    if (!name.ends_with(".partial") || dash == std::string::npos) continue;
+    const int process = std::atoi(name.c_str() + dash + 1);
+    if (process > 0 && ::kill(process, 0) != 0 && errno == ESRCH) left.push_back(entry.path());
+  }
+  for (const fs::path& path : left) remove_path(path);
+}
+
 SessionRecord from(const Json& j) {
   return {.began = j.at("began"),
           .program = j.at("program"),
@@ -67,6 +84,7 @@ SessionLog::SessionLog(fs::path folder, SessionRecord what)
     : record_(std::move(what)), began_(clock_seconds()), used_before_(processor_time()) {
   record_.began = utc_now();
   path_ = std::move(folder) / kFolder / fmt::format("{}-{}.json", record_.began, ::getpid());
+  remove_leftovers(path_.parent_path());
 }
 
 void SessionLog::stage_made() {
@@ -94,8 +112,6 @@ std::vector<SessionRecord> read_sessions(const fs::path& folder) {
     try {
       if (const auto json = read_sealed(entry.path()).json) sessions.push_back(from(*json));
     } catch (const Json::exception&) {
-      continue;
-    } catch (const Error&) {
       continue;
     }
   }

@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+import re
 
 # Wall times and what follows from them. Everything else has to be the same in every run.
 TIMES = {"seconds", "modified_ns", "wall_s", "wall", "cached", "why", "fem_seconds",
@@ -11,6 +12,9 @@ TIMES = {"seconds", "modified_ns", "wall_s", "wall", "cached", "why", "fem_secon
 ALWAYS = {"run.lock", ".flowslide.lock"}
 # What a study tells of its rows and stages, failed ones too, written anew in every run.
 SUMMARY = {"table.csv", "table.h5", "columns.csv", "analysis.json", "study.html"}
+
+# Of the page of a study: when it was computed, and how long that took.
+COST = re.compile(rb"<div class='wide'><table><tr><th class='word'>computed from.*?</table></div>")
 
 
 def without_times(value):
@@ -39,6 +43,8 @@ def content(path, root):
         except (AttributeError, ValueError):
             pass
         raw = raw.replace(root.encode(), b"ROOT")
+    if os.path.basename(path) == "study.html":
+        raw = COST.sub(b"", raw)
     return hashlib.sha256(raw).hexdigest()
 
 
@@ -50,7 +56,11 @@ def snapshot(root, folders=("out", "made")):
             for name in names + files:
                 path = f"{folder}/{name}"
                 key = os.path.relpath(path, root)
-                if os.path.islink(path):
+                if os.path.basename(folder) == "sessions" and not is_temporary(key):
+                    # One for each time that the study ran, with its time as a name.
+                    whole = "a whole session" if parses(path) else "a broken session"
+                    seen[f"{os.path.dirname(key)}/SESSION.json"] = whole
+                elif os.path.islink(path):
                     seen[key] = "link to " + os.readlink(path)
                 elif name in names:
                     seen[key] = "folder"
