@@ -66,9 +66,10 @@ void print_result(const fs::path& folder, std::size_t warnings, const Expectatio
                h.unit.empty() ? "" : " ", h.unit, h.note.empty() ? "" : " (" + h.note + ")");
   }
   if (time.expected > 0.0)
-    fmt::print("{:<{}} {}, {} expected ({:+.0f} %)\n", "computing time", label,
-               about_seconds(time.taken), about_seconds(time.expected),
-               100.0 * (time.taken / time.expected - 1.0));
+    print_wrapped(
+        stdout, fmt::format("{:<{}} ", "computing time", label),
+        fmt::format("{}, {} expected ({:+.0f} %)", about_seconds(time.taken),
+                    about_seconds(time.expected), 100.0 * (time.taken / time.expected - 1.0)));
   if (warnings > 0) fmt::print("{:<{}} {}, see above\n", "warnings before use", label, warnings);
   fmt::print("{:<{}} {}\n", "result", label, (folder / kResultFile).string());
 }
@@ -84,9 +85,10 @@ int dry_run(const Workflow& workflow, const fs::path& folder, const CostBook& co
     if (line.decision.action != Action::reuse) all.add(line.decision.expected);
   }
   if (all.expected > 0.0)
-    fmt::print("expected: about {} with {} thread{}, {}{}\n", about_seconds(all.expected), threads,
-               threads == 1 ? "" : "s", about_bytes(all.memory),
-               all.unknown > 0 ? ", and what nothing is known of" : "");
+    print_wrapped(stdout, "expected: ",
+                  fmt::format("about {} with {} thread{}, {}{}", about_seconds(all.expected),
+                              threads, threads == 1 ? "" : "s", about_bytes(all.memory),
+                              all.unknown > 0 ? ", and what nothing is known of" : ""));
   return 0;
 }
 
