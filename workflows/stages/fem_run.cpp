@@ -92,7 +92,7 @@ struct FemRun {
     p.water = config.water;
     if (p.stop && p.end) check_transfer_time(*p.stop, *p.end, "stop_at_transfer.", found);
     if (!p.section) return p;
-    found.work = shaking_work(config, p.section->mesh, config.stop_at_transfer.has_value());
+    found.work = shaking_work(config, p.section->mesh, p.end, config.stop_at_transfer.has_value());
     check_water(config, p.section->mesh, found);
     (void)fem::build_model(*p.section, config);  // names, sets and ends against the mesh
     p.materials = fem::history_materials(*p.section, config);

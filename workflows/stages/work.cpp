@@ -94,9 +94,9 @@ Work mesh_work(const QuadMesh& mesh) {
           .memory = kProgram + kBytesPerElement * elements_of(mesh)};
 }
 
-Work shaking_work(const FemConfig& config, const QuadMesh& mesh, bool stops_at_transfer) {
-  const double end =
-      config.end.value_or(kUsualShaking) * (stops_at_transfer ? kUntilTransfer : 1.0);
+Work shaking_work(const FemConfig& config, const QuadMesh& mesh, std::optional<double> until,
+                  bool stops_at_transfer) {
+  const double end = until.value_or(kUsualShaking) * (stops_at_transfer ? kUntilTransfer : 1.0);
   const double step = config.courant * stable_step(smallest_height(mesh), config.damping);
   return {.seconds = kStart + kPerElementStep * elements_of(mesh) * end / step,
           .parallel = kParallel,

@@ -17,7 +17,9 @@ namespace flowslide {
 /// Elements times what is done to each.
 Work mesh_work(const QuadMesh& mesh);
 /// `end` of the shaking [s]; nothing where only the motion tells.
-Work shaking_work(const FemConfig& config, const QuadMesh& mesh, bool stops_at_transfer);
+/// `until`: the end of the shaking or its motion, if known [s].
+Work shaking_work(const FemConfig& config, const QuadMesh& mesh, std::optional<double> until,
+                  bool stops_at_transfer);
 Work zone_work(const QuadMesh& mesh, bool shakes, std::optional<double> end);
 Work map_work(const MapConfig& map, const Soil& soil);
 /// Points times the steps until it may be at rest.
