@@ -52,8 +52,7 @@ std::vector<std::string> pages(const fs::path& folder, const Plan& plan, const T
       if (plan.nodes[n].stage.type.name != "report.runout" || !key || key->text[r].empty())
         continue;
       const std::string path = fmt::format("stages/{}/{}/report/report.html", stage, key->text[r]);
-      std::error_code error;
-      if (fs::is_regular_file(folder / path, error)) found[r] = path;
+      if (fs::is_regular_file(folder / path)) found[r] = path;
     }
   return found;
 }

@@ -106,8 +106,8 @@ void SessionLog::stage_made() {
 
 std::vector<SessionRecord> read_sessions(const fs::path& folder) {
   std::vector<SessionRecord> sessions;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder / kFolder, error)) {
+  if (!fs::exists(folder / kFolder)) return sessions;
+  for (const auto& entry : fs::directory_iterator(folder / kFolder)) {
     if (entry.path().extension() != ".json") continue;
     try {
       if (const auto json = read_sealed(entry.path()).json) sessions.push_back(from(*json));

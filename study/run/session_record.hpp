@@ -31,7 +31,8 @@ class SessionLog {
   double began_ = 0.0, used_before_ = 0.0;  ///< [s]
 };
 
-/// In the order of their beginnings; what is damaged is left out. Throws FileError.
+/// In the order of their beginnings; what is damaged is left out. Throws FileError
+/// and std::filesystem::filesystem_error.
 std::vector<SessionRecord> read_sessions(const std::filesystem::path& folder);
 
 /// As the system calls it; "unknown" where it does not tell.
