@@ -232,9 +232,48 @@ class Analyst {
       for (const std::string& name : depths(table_)) pairs.emplace_back(name, "runout_m");
     for (const auto& [x, y] : pairs) {
       if (!is_there(x, "analysis.thresholds") || !is_there(y, "analysis.thresholds")) continue;
-      const Pairs p = observations(*table_.find(x), *table_.find(y));
-      f_.thresholds.push_back({x, y, fit_ramp(p.x, p.y, resampling_)});
+      add_thresholds(*table_.find(x), *table_.find(y));
     }
+  }
+
+  void add_thresholds(const Column& x, const Column& y) {
+    struct Level {
+      std::size_t row = 0;
+      Pairs pairs;
+    };
+    const std::set<std::string> by = beside(x, y);
+    const std::vector<double> all_x = means(x), all_y = means(y);
+    std::map<std::string, Level> levels;
+    for (const std::size_t i : observations(y, [&](std::size_t k) { return all_x[k]; })) {
+      if (!is_set(all_x[i])) continue;
+      const std::size_t row = f_.repeats.groups[f_.groups[i]][0];
+      Level& level =
+          levels.try_emplace(place_of(plan_.rows[row], by), Level{row, {}}).first->second;
+      level.pairs.x.push_back(all_x[i]);
+      level.pairs.y.push_back(all_y[i]);
+    }
+    std::erase_if(levels, [](const auto& l) { return l.second.pairs.x.size() < kFewestForRamp; });
+    for (const auto& [where, level] : levels)
+      f_.thresholds.push_back({x.name, y.name, where.empty() ? "" : *by.begin(), where, level.row,
+                               fit_ramp(level.pairs.x, level.pairs.y, resampling_)});
+    if (!levels.empty()) return;
+    const Pairs p = observations(x, y);
+    f_.thresholds.push_back({x.name, y.name, "", "", 0, fit_ramp(p.x, p.y, resampling_)});
+  }
+
+  /// Inputs of few values that y hangs on and x does not.
+  [[nodiscard]] std::set<std::string> beside(const Column& x, const Column& y) const {
+    constexpr std::size_t kMost = 6;
+    std::set<std::string> names;
+    for (const Input& input : plan_.inputs) {
+      const Column& c = *table_.find(input.name);
+      std::set<std::string> values;
+      for (const std::size_t g : f_.groups) values.insert(c.text[f_.repeats.groups[g][0]]);
+      const bool moves_x = x.role == Role::input ? &c == &x : feeds(c, x);
+      if (values.size() > 1 && values.size() <= kMost && !moves_x && feeds(c, y))
+        names.insert(input.name);
+    }
+    return names;
   }
 
   void compare() {
