@@ -40,8 +40,8 @@ std::string unit_of(const RecordText& text, const At2Header& header, const Recor
     return *format.unit;
   }
   if (format.unit) {
-    const double ratio = unit_factor(*format.unit, Dim::acceleration) /
-                         unit_factor(*header.unit, Dim::acceleration);
+    const double ratio =
+        unit_factor(*format.unit, Dim::acceleration) / unit_factor(*header.unit, Dim::acceleration);
     validate(std::abs(ratio - 1.0) < 1e-9,
              "{}:{}: the header says {}, but `unit` is {} (accelerations would be {:.4g} times "
              "those of the header) leave `unit` out, or correct the header in a copy of the file",
