@@ -106,7 +106,7 @@ std::string liquefaction(const ReportInputs& in, const ReportFacts& f) {
           ? "The state at rest was transferred; there was no shaking to choose from.\n"
           : fmt::format("The state at t = {:.3f} s was transferred (frame {} of {}).\n",
                         zone.transfer_time, zone.transfer_frame + 1, in.history.times().size());
-  out += fmt::format("Reason: {}\n\nThe liquefied zone has {} elements, {:.0f} m2.\n\n",
+  out += fmt::format("Reason: {}\n\nThe liquefied zone has {} elements, {:.0f} m².\n\n",
                      cell(zone.transfer_reason), elements, area_liquefied);
   out += zone_shares_markdown(f);
   Rows rows;
