@@ -25,9 +25,9 @@ struct Material {
   double density = kUnset;                             ///< mixture of grains and water [kg/m3]
   double porosity = kUnset;                            ///< n [-]
   std::array<double, 2> permeability{kUnset, kUnset};  ///< horizontal, vertical [m/s]
-  PermeabilityRise permeability_rise;
-  double gravity_poisson = kUnset;  ///< K_0/(1 + K_0) [-]
-  bool drained = false;             ///< no excess pore pressure in this soil
+  double gravity_poisson = kUnset;                     ///< K_0/(1 + K_0) [-]
+  bool drained = false;                                ///< no excess pore pressure in this soil
+  PermeabilityRise permeability_rise{};
 };
 
 struct Fluid {
