@@ -142,20 +142,23 @@ class Pool {
   [[nodiscard]] const std::string& stage(std::size_t node) const {
     return plan_.nodes[node].stage.name;
   }
+  /// Of ours, or asked for by one of ours because its files have gone.
+  [[nodiscard]] bool is_wanted(std::size_t n) const {
+    const NodeState& node = progress_.node(n);
+    return (node.state == State::ready && (options_.only.empty() || options_.only[n])) ||
+           (node.state == State::done && node.again);
+  }
   [[nodiscard]] bool is_work_left() const {
-    return std::any_of(progress_.nodes().begin(), progress_.nodes().end(), [](const NodeState& n) {
-      return n.state == State::ready || (n.state == State::done && n.again);
-    });
+    for (std::size_t n = 0; n < plan_.nodes.size(); ++n)
+      if (is_wanted(n)) return true;
+    return false;
   }
 
   /// To be run now: later stages before earlier ones, so that rows are finished one by one.
   [[nodiscard]] std::vector<std::size_t> candidates() const {
     std::vector<std::size_t> result;
-    for (std::size_t n = 0; n < plan_.nodes.size(); ++n) {
-      const NodeState& node = progress_.node(n);
-      const bool wanted = node.state == State::ready || (node.state == State::done && node.again);
-      if (wanted && Clock::now() >= not_before_[n]) result.push_back(n);
-    }
+    for (std::size_t n = 0; n < plan_.nodes.size(); ++n)
+      if (is_wanted(n) && Clock::now() >= not_before_[n]) result.push_back(n);
     std::stable_sort(result.begin(), result.end(), [&](std::size_t a, std::size_t b) {
       return plan_.nodes[a].before.size() > plan_.nodes[b].before.size();
     });

@@ -11,10 +11,11 @@
 namespace flowslide::study {
 
 struct PoolOptions {
-  std::size_t jobs = 1;     ///< processes side by side, at most
-  std::size_t threads = 1;  ///< of all of them together
-  double memory = 1e9;      ///< for all of them together [bytes]
-  bool retry = false;       ///< also what failed for good before
+  std::size_t jobs = 1;         ///< processes side by side, at most
+  std::size_t threads = 1;      ///< of all of them together
+  double memory = 1e9;          ///< for all of them together [bytes]
+  bool retry = false;           ///< also what failed for good before
+  std::vector<bool> only = {};  ///< nodes to be computed, others are somebody else's; empty: all
   std::vector<std::string> allowed_programs;
   std::filesystem::path costs = {};  ///< what stages took on this machine, as for CostBook
   const std::atomic<bool>* stop_requested = nullptr;
