@@ -182,6 +182,7 @@ int run_study_part(const std::string& file, std::size_t task) {
   options.retry = record.retry;
   options.allowed_programs = record.allowed_programs;
   options.only = nodes_of_task(plan, record, task);
+  options.patience = 60.0;  // as long as NFS may remember that a file was not there
   const auto mine = [&](study::State state) {
     std::size_t count = 0;
     for (std::size_t n = 0; n < plan.nodes.size(); ++n)

@@ -99,16 +99,60 @@ class Packer {
     return family;
   }
 
+  /// All that hangs together with a bundle, that itself included.
+  [[nodiscard]] std::vector<std::size_t> component_of(
+      std::size_t first, const std::vector<std::vector<std::size_t>>& beside) const {
+    std::vector<bool> in(bundles_.size(), false);
+    std::vector<std::size_t> open{first}, component;
+    in[first] = true;
+    while (!open.empty()) {
+      const std::size_t b = open.back();
+      open.pop_back();
+      component.push_back(b);
+      for (const std::size_t next : beside[b])
+        if (!in[next]) {
+          in[next] = true;
+          open.push_back(next);
+        }
+    }
+    std::sort(component.begin(), component.end());
+    return component;
+  }
+
+  /// What hangs together and is little is one piece.
+  void take_small_components() {
+    std::vector<std::vector<std::size_t>> beside(bundles_.size());
+    for (std::size_t b = 0; b < bundles_.size(); ++b)
+      for (const std::size_t from : bundles_[b].before) {
+        beside[b].push_back(from);
+        beside[from].push_back(b);
+      }
+    std::vector<bool> seen(bundles_.size(), false);
+    for (std::size_t b = 0; b < bundles_.size(); ++b) {
+      if (seen[b]) continue;
+      std::vector<std::size_t> component = component_of(b, beside);
+      for (const std::size_t c : component) seen[c] = true;
+      if (sum_of(component) > 2.0 * packing_.chunk) continue;
+      for (const std::size_t c : component) level_[c] = 0;
+      pieces_.push_back({std::move(component), 0});
+    }
+  }
+
+  [[nodiscard]] double sum_of(const std::vector<std::size_t>& bundles) const {
+    double sum = 0.0;
+    for (const std::size_t b : bundles) sum += bundles_[b].seconds;
+    return sum;
+  }
+
   /// Takes as a whole what is shared and all that follows from it, depth first, if that is not too
   /// much for one task; else what is shared becomes a piece of its own, for which the rest waits.
   void cut() {
     level_.assign(bundles_.size(), kNone);
+    take_small_components();
     for (std::size_t b = 0; b < bundles_.size(); ++b) {
       if (level_[b] != kNone) continue;
       std::vector<std::size_t> family = family_of(b);
-      double sum = 0.0;
-      for (const std::size_t f : family) sum += bundles_[f].seconds;
-      if (sum > 2.0 * packing_.chunk) family = {b};
+      if (sum_of(family) > 2.0 * packing_.chunk) family = {b};
       std::size_t level = 0;
       for (const std::size_t f : family)
         for (const std::size_t from : bundles_[f].before)
@@ -133,12 +177,6 @@ class Packer {
     }
   }
 
-  [[nodiscard]] double seconds_of(const Piece& piece) const {
-    double sum = 0.0;
-    for (const std::size_t b : piece.bundles) sum += bundles_[b].seconds;
-    return sum;
-  }
-
   /// Pieces in the order of their rows, evenly on as many tasks as chunks.
   [[nodiscard]] std::vector<ArrayTask> tasks_of(std::size_t level) const {
     std::vector<const Piece*> pieces;
@@ -146,7 +184,7 @@ class Packer {
     for (const Piece& piece : pieces_)
       if (piece.level == level) {
         pieces.push_back(&piece);
-        left += seconds_of(piece);
+        left += sum_of(piece.bundles);
       }
     std::stable_sort(pieces.begin(), pieces.end(), [&](const Piece* a, const Piece* b) {
       return bundles_[a->bundles.front()].first_row < bundles_[b->bundles.front()].first_row;
@@ -162,7 +200,7 @@ class Packer {
       }
       for (const std::size_t b : pieces[p]->bundles)
         nodes.insert(nodes.end(), bundles_[b].nodes.begin(), bundles_[b].nodes.end());
-      sum += seconds_of(*pieces[p]);
+      sum += sum_of(pieces[p]->bundles);
       constexpr double kNearly = 1.0 - 1e-9;
       const bool full = tasks_left > 1.5 && sum >= share * kNearly &&
                         left - sum >= packing_.chunk * kNearly;  // what is left is worth a task

@@ -117,7 +117,7 @@ class Pool {
       } else if (!outdated_) {
         launch();
       }
-      if (running_.empty() && !is_work_left()) return PoolEnd::done;
+      if (running_.empty() && !is_work_left() && !may_still_come()) return PoolEnd::done;
       wait();
       for (auto r = running_.begin(); r != running_.end();) {
         listen(*r);
@@ -152,6 +152,20 @@ class Pool {
     for (std::size_t n = 0; n < plan_.nodes.size(); ++n)
       if (is_wanted(n)) return true;
     return false;
+  }
+
+  /// Looks again for what ours wait for and others should have made.
+  bool may_still_come() {
+    bool waits = false;
+    for (std::size_t n = 0; n < options_.only.size(); ++n)
+      waits |= options_.only[n] && progress_.node(n).state == State::waiting;
+    if (!waits) return false;
+    if (idle_since_ == Clock::time_point{}) idle_since_ = Clock::now();
+    if (seconds_since(idle_since_) > options_.patience) return false;
+    for (std::size_t n = 0; n < options_.only.size(); ++n)
+      if (!options_.only[n] && progress_.node(n).state == State::ready) (void)progress_.is_open(n);
+    progress_.resolve();
+    return true;
   }
 
   /// To be run now: later stages before earlier ones, so that rows are finished one by one.
@@ -246,6 +260,7 @@ class Pool {
                         .end = {},
                         .damaged = {}});
     progress_.node(n).state = State::running;
+    idle_since_ = {};
   }
 
   void wait() {
@@ -392,7 +407,8 @@ class Pool {
   const PoolEvents& events_;
   Locks locks_;
   Tidier tidier_;
-  bool outdated_ = false;  ///< a stage found its workflow to be another one
+  Clock::time_point idle_since_ = {};  ///< ours wait, and nothing runs
+  bool outdated_ = false;              ///< a stage found its workflow to be another one
   WorkCosts costs_;
   std::list<Running> running_;
   std::vector<int> damages_;                   ///< how often a result was found damaged

@@ -136,7 +136,7 @@ TEST_CASE("on a terminal a study draws its running stages and a total", "[cli]")
 
 TEST_CASE("the help of studies fits 80 columns", "[cli]") {
   const Scratch scratch;
-  for (const char* command : {"", "run ", "status ", "table ", "report ", "clean "}) {
+  for (const char* command : {"", "run ", "status ", "table ", "report ", "clean ", "part "}) {
     const Outcome o = call(scratch, std::string("study ") + command + "--help");
     REQUIRE(o.code == 0);
     std::istringstream in(o.out);
