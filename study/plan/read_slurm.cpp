@@ -11,39 +11,39 @@ namespace flowslide::study {
 namespace {
 
 /// Options of sbatch on which the program itself relies, and what to write instead.
-const std::vector<std::pair<std::string, std::string>> kOwn{{"--partition", "partition"},
-                                                            {"-p", "partition"},
-                                                            {"--account", "account"},
-                                                            {"-A", "account"},
-                                                            {"--time", "time"},
-                                                            {"-t", "time"},
-                                                            {"--cpus-per-task", "cpus"},
-                                                            {"-c", "cpus"},
-                                                            {"--mem", "memory"},
-                                                            {"--mem-per-cpu", "memory"},
-                                                            {"--array", ""},
-                                                            {"-a", ""},
-                                                            {"--dependency", ""},
-                                                            {"-d", ""},
-                                                            {"--job-name", ""},
-                                                            {"-J", ""},
-                                                            {"--output", ""},
-                                                            {"-o", ""},
-                                                            {"--error", ""},
-                                                            {"-e", ""},
-                                                            {"--open-mode", ""},
-                                                            {"--signal", ""},
-                                                            {"--requeue", ""},
-                                                            {"--no-requeue", ""},
-                                                            {"--chdir", ""},
-                                                            {"-D", ""},
-                                                            {"--parsable", ""},
-                                                            {"--wait", ""},
-                                                            {"-W", ""},
-                                                            {"--wrap", ""},
-                                                            {"--ntasks", ""},
-                                                            {"-n", ""},
-                                                            {"--test-only", ""}};
+const std::vector<std::pair<std::string, std::string>> kTaken{{"--partition", "partition"},
+                                                              {"-p", "partition"},
+                                                              {"--account", "account"},
+                                                              {"-A", "account"},
+                                                              {"--time", "time"},
+                                                              {"-t", "time"},
+                                                              {"--cpus-per-task", "cpus"},
+                                                              {"-c", "cpus"},
+                                                              {"--mem", "memory"},
+                                                              {"--mem-per-cpu", "memory"},
+                                                              {"--array", ""},
+                                                              {"-a", ""},
+                                                              {"--dependency", ""},
+                                                              {"-d", ""},
+                                                              {"--job-name", ""},
+                                                              {"-J", ""},
+                                                              {"--output", ""},
+                                                              {"-o", ""},
+                                                              {"--error", ""},
+                                                              {"-e", ""},
+                                                              {"--open-mode", ""},
+                                                              {"--signal", ""},
+                                                              {"--requeue", ""},
+                                                              {"--no-requeue", ""},
+                                                              {"--chdir", ""},
+                                                              {"-D", ""},
+                                                              {"--parsable", ""},
+                                                              {"--wait", ""},
+                                                              {"-W", ""},
+                                                              {"--wrap", ""},
+                                                              {"--ntasks", ""},
+                                                              {"-n", ""},
+                                                              {"--test-only", ""}};
 
 /// Goes into a script on a line of its own: another line would be a command.
 std::string read_line(const YamlNode& node) {
@@ -74,7 +74,7 @@ std::string read_option(const YamlNode& node) {
   if (name.find(' ') != std::string::npos)
     throw node.error(
         fmt::format("'{}' would be taken for one word. Write it as in --qos=low.", option));
-  for (const auto& [own, key] : kOwn)
+  for (const auto& [own, key] : kTaken)
     if (name == own)
       throw node.error(
           key.empty()

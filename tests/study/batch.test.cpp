@@ -67,19 +67,17 @@ void check_order(const Packed& packed, const std::vector<JobArray>& arrays) {
 /// A scheduler without machines: it takes every script.
 struct Paper {
   std::vector<std::string> sent;
-  Scheduler scheduler{
-      .name = "paper",
-      .ending = ".txt",
-      .text = [](const Script& s) { return s.about + "\n"; },
-      .commands = [](const auto&, const auto&) { return std::string("commands\n"); },
-      .send =
-          [this](const Script& s, const std::vector<std::string>& after) {
-            sent.push_back(
-                fmt::format("{} after {}", s.name, after.empty() ? "nothing" : after.back()));
-            return std::to_string(sent.size());
-          },
-      .queue = [] { return std::vector<QueuedTask>(); },
-      .follow = "look"};
+  Scheduler scheduler;
+
+  Paper() {
+    scheduler.name = "paper";
+    scheduler.ending = ".txt";
+    scheduler.text = [](const Script& script) { return script.about + "\n"; };
+    scheduler.send = [this](const Script& script, const std::vector<std::string>& after) {
+      sent.push_back(script.name + " after " + (after.empty() ? "nothing" : after.back()));
+      return std::to_string(sent.size());
+    };
+  }
 };
 
 BatchOptions options_of(const StudyBench& bench, double chunk) {
