@@ -87,8 +87,8 @@ SessionRecord from(const Json& j) {
 SessionLog::SessionLog(const fs::path& folder, SessionRecord what)
     : record_(std::move(what)), began_(clock_seconds()), used_before_(processor_time()) {
   record_.began = utc_now();
-  path_ = folder / kFolder /
-          fmt::format("{}-{}-{}.json", record_.began, machine_name(), ::getpid());
+  path_ =
+      folder / kFolder / fmt::format("{}-{}-{}.json", record_.began, machine_name(), ::getpid());
   remove_leftovers(path_.parent_path());
 }
 
