@@ -111,7 +111,8 @@ std::optional<int> run_plan(const StudyArguments& args, const study::Plan& plan,
                               .output = output_of(args)}))
     return 0;
   if (args.dry_run) {
-    display.plan();
+    const study::PoolOptions pool = pool_options(args);
+    display.plan({plan, progress, pool.costs, 1}, pool.jobs);
     return 0;
   }
   make_folders(folder / "stages");
