@@ -21,7 +21,9 @@ ArrayRecord from(const Json& json) {
                      .retry = json.at("retry"),
                      .allowed_programs = json.at("allow").get<std::vector<std::string>>(),
                      .tasks = json.at("tasks").get<std::vector<std::vector<std::string>>>()};
-  validate(record.cpus > 0 && record.memory > 0.0, "a task needs a processor and memory");
+  constexpr std::size_t kMostCpus = 4096;
+  validate(record.cpus > 0 && record.cpus <= kMostCpus && record.memory > 0.0,
+           "a task needs a processor and memory");
   for (const auto& task : record.tasks)
     for (const std::string& recipe : task) validate(is_digest(recipe), "'{}' is no digest", recipe);
   return record;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstring>
 #include <sstream>
+#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -158,8 +159,9 @@ std::string send_script(const Script& script, const std::vector<std::string>& af
 }
 
 std::vector<QueuedTask> read_queue(const std::atomic<bool>* stop) {
-  const CommandEnd end =
-      call({"squeue", "--me", "--array", "--noheader", "--format=%F|%K|%t|%o"}, "/", stop);
+  const CommandEnd end = call({"squeue", fmt::format("--user={}", ::getuid()), "--array",
+                               "--noheader", "--format=%F|%K|%t|%o"},
+                              "/", stop);
   if (end.code == 0) return queued_tasks(end.out);
   throw FileError(fmt::format(
       "squeue: does not tell which jobs wait or run ({}), and work that is under way would be sent "

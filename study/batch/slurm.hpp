@@ -15,7 +15,7 @@ std::string shell_word(const std::string& text);
 std::string sbatch_word(const std::string& text);
 /// "1-06:30:00", rounded up to whole minutes.
 std::string slurm_time(double seconds);
-/// Lines of 'squeue --array --noheader --format=%A|%F|%K|%t|%o'.
+/// Lines of 'squeue --array --noheader --format=%F|%K|%t|%o'.
 std::vector<QueuedTask> queued_tasks(std::string_view lines);
 
 }  // namespace flowslide::study
