@@ -100,10 +100,10 @@ std::string duration_text(double least, double most) {
   return most < 1.5 * kHour ? text(kMinute, 0, "min") : text(kHour, 1, "h");
 }
 
-/// Takes from the front what takes seconds, and next to nothing beside a chunk.
+/// Takes from the front what takes less than a minute, and next to nothing beside a chunk.
 std::vector<bool> take_small(std::vector<JobArray>& arrays, const Packing& packing,
                              std::size_t nodes) {
-  constexpr double kSeconds = 10.0, kShare = 0.01;
+  constexpr double kSeconds = 60.0, kShare = 1.0 / 30.0;
   std::vector<bool> small;
   double left = std::min(kSeconds, kShare * packing.chunk);
   while (arrays.size() > 1) {
@@ -129,8 +129,9 @@ std::string about(const Plan& plan, const JobArray& array) {
   const std::string tasks = array.tasks.size() == 1
                                 ? fmt::format("one task of {}", range)
                                 : fmt::format("{} tasks of {} each", array.tasks.size(), range);
-  return fmt::format("Study {}, {}: {} stages, expected to be {}.", plan.name,
-                     array.name == "rows" ? "rows" : "what rows share", stages, tasks);
+  return fmt::format("Study {}, {}: {} stage{}, expected to be {}.", plan.name,
+                     array.name == "rows" ? "rows" : "what rows share", stages,
+                     stages == 1 ? "" : "s", tasks);
 }
 
 /// A path stands in scripts that have lines.

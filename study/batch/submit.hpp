@@ -38,8 +38,8 @@ struct Batch {
   std::vector<ArrayRecord> records;  ///< of the scripts but the last
   std::vector<std::string> after;    ///< jobs under way that make what these read
   std::size_t stages = 0;
-  /// Nodes to be computed by whoever sends the rest, before: what rows share and takes seconds
-  /// is not worth a job for which they all would wait. Empty if there are none.
+  /// Nodes to be computed by whoever sends the rest, before: what rows share and takes less
+  /// than a minute is not worth a job for which they all would wait. Empty if there are none.
   std::vector<bool> here;
 };
 

@@ -294,6 +294,32 @@ TEST_CASE("What is done is not sent, and what takes seconds is done before", "[s
   CHECK(nodes_of_task(more, batch.records[0], 0)[one]);
 }
 
+TEST_CASE("What rows share and is little is for whoever sends the rest", "[study]") {
+  StudyBench bench;
+  const Plan plan = bench.plan(kValues);
+  const Store store(bench.folder);
+  StudyState progress = bench.progress(plan);
+  const Paper paper;
+  const auto here = [&](double chunk) {
+    return plan_batch(plan, store, progress, {}, paper.scheduler, options_of(bench, chunk)).here;
+  };
+  // A minute for each: `two`, which all share, is a thirtieth of half an hour, and then all is one
+  // task, which nothing comes before.
+  CHECK(here(200.0).empty());
+  CHECK(here(1800.0).empty());
+  bench.run(plan);
+  std::filesystem::remove_all(bench.folder / "stages/sum");
+  std::filesystem::remove_all(bench.folder / "stages/count");
+  std::filesystem::remove_all(bench.folder / "stages/two");
+  // Numbers took milliseconds, the rest is unknown; of what is open only `two` is shared.
+  StudyState some = bench.progress(plan);
+  const Batch batch = plan_batch(plan, store, some, {}, paper.scheduler, options_of(bench, 50.0));
+  REQUIRE(batch.here.size() == plan.nodes.size());
+  for (std::size_t n = 0; n < plan.nodes.size(); ++n)
+    CHECK(batch.here[n] == (plan.nodes[n].stage.name == "two"));
+  CHECK(batch.scripts.size() == 2);
+}
+
 TEST_CASE("A record of an array says what is wrong with it", "[study]") {
   const Scratch scratch;
   CHECK_THROWS_WITH(read_array(scratch / "none.json"),

@@ -115,12 +115,12 @@ def running_rows(cluster):
 
 
 def check_interrupted(cluster, program, folder):
-    study = Study(cluster, program, folder / "cut", cell="2.5 m", end="8 s", values="0.5, 0.6, 0.7",
+    study = Study(cluster, program, folder / "cut", cell="2.5 m", end="12 s", values="0.5, 0.6, 0.7",
                   more="", labels="lenient", cpus=1)
     sent = study.run("cut", "--executor", "slurm")
     expect("jobs are sent", sent.returncode == 0)
     await_flows(cluster, study, "cut", 2)
-    time.sleep(0.5)
+    time.sleep(0.2)
     first, second = running_rows(cluster)[:2]
     # As Slurm does before the time limit; it begins again when its place in the queue comes.
     cluster.call("scancel", "--signal=USR1", "--batch", first)
@@ -128,6 +128,8 @@ def check_interrupted(cluster, program, folder):
     cluster.await_("the end of two tasks", lambda: not {first, second} & set(running_rows(cluster)))
     about = cluster.call("scontrol", "show", "job", first).stdout
     expect("a task that was warned goes back into the queue", "Restarts=1" in about)
+    left = list((study.folder / "cut").glob("stages/flow/*.partial/checkpoint"))
+    expect(f"{len(left)} checkpoints are left, one of each", len(left) >= 2)
     seen = study.finished("cut")
     again = study.run("cut", "--executor", "slurm")
     expect("the same command sends what was cancelled, and only that: " + again.stdout,
@@ -176,10 +178,10 @@ def main():
     program = sys.argv[1]
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     needed = os.environ.get("FLOWSLIDE_SLURM") == "needed"
-    if missing() and not needed:
-        print(f"skipped: there is no {', '.join(missing())} (apt-get install slurmctld slurmd "
-              "slurm-client munge)")
-        sys.exit(SKIPPED)
+    if missing():
+        print(f"{'FAILED' if needed else 'skipped'}: there is no {', '.join(missing())} (apt-get "
+              "install slurmctld slurmd slurm-client munge)")
+        sys.exit(1 if needed else SKIPPED)
     with tempfile.TemporaryDirectory(prefix="flowslide-slurm-") as name:
         folder = pathlib.Path(name)
         (folder / "slurm").mkdir()
