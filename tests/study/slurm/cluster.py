@@ -1,6 +1,7 @@
 """A Slurm of our own on this machine: munged, slurmctld and slurmd in a folder, on ports that nobody
 has, with one node. They belong to who starts them, and end with `with Cluster(folder) as cluster:`.
 """
+import ctypes
 import os
 import pathlib
 import pwd
@@ -10,7 +11,7 @@ import socket
 import subprocess
 import time
 
-PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue", "scontrol", "scancel")
+PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue", "sinfo", "scontrol", "scancel")
 
 CONFIGURATION = """ClusterName=flowslide
 SlurmctldHost={host}(127.0.0.1)
@@ -66,6 +67,12 @@ def free_ports(count):
     return ports
 
 
+def end_with_parent():
+    """Of a new process: should this one be killed, it gets SIGTERM."""
+    set_parent_death_signal = 1
+    ctypes.CDLL(None).prctl(set_parent_death_signal, signal.SIGTERM)
+
+
 class CannotStart(Exception):
     pass
 
@@ -113,7 +120,7 @@ class Cluster:
         log = open(self.folder / f"{program}.out", "w", encoding="utf-8")
         self.processes.append(subprocess.Popen(
             [find(program), *arguments], env=self.environment, stdout=log, stderr=log,
-            stdin=subprocess.DEVNULL, start_new_session=True))
+            stdin=subprocess.DEVNULL, start_new_session=True, preexec_fn=end_with_parent))
         log.close()
 
     def await_(self, what, ready, seconds=20):
@@ -155,11 +162,20 @@ class Cluster:
 
     def stop(self):
         """In the opposite order of the start; first the jobs, whose processes are nobody's child."""
-        if len(self.processes) == 3 and all(p.poll() is None for p in self.processes):
-            self.call("scancel", f"--user={os.getuid()}")
-            end = time.monotonic() + 15
-            while self.queue() and time.monotonic() < end:
-                time.sleep(0.1)
+        try:
+            self.end_jobs()
+        finally:
+            self.end_daemons()
+
+    def end_jobs(self):
+        if len(self.processes) < 3 or any(p.poll() is not None for p in self.processes):
+            return
+        self.call("scancel", f"--user={os.getuid()}")
+        end = time.monotonic() + 15
+        while self.queue() and time.monotonic() < end:
+            time.sleep(0.1)
+
+    def end_daemons(self):
         for process in reversed(self.processes):
             if process.poll() is None:
                 process.send_signal(signal.SIGTERM)
