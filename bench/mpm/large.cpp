@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <fstream>
-
 #include <malloc.h>
 
 #include <fmt/format.h>
