@@ -48,6 +48,13 @@ std::string harmless(std::string text) {
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
+void tell_failure(const std::string& stage, const std::string& text) {
+  const std::string first = first_line(text);
+  print_wrapped(stderr, "failed: ", fmt::format("{}: {}", stage, first));
+  if (text.size() > first.size())
+    fmt::print(stderr, "{}\n", harmless(text.substr(first.size() + 1)));
+}
+
 }  // namespace
 
 std::string StudyDisplay::name_of(std::size_t node) const {
@@ -70,7 +77,7 @@ void StudyDisplay::begin(const std::filesystem::path& folder) {
                plan_.nodes.size(), done);
     std::fflush(stdout);
   }
-  for (const std::string& line : failures()) fmt::print(stderr, "failed before: {}\n", line);
+  for (const std::string& line : failures()) print_wrapped(stderr, "failed before: ", line);
 }
 
 void StudyDisplay::plan() const {
@@ -105,7 +112,7 @@ study::PoolEvents StudyDisplay::events() {
   events.tick = [this](const study::PoolView& view) { tick(view); };
   events.notice = [this](std::string_view text) {
     close();
-    fmt::print(stderr, "note: {}\n", harmless(std::string(text)));
+    print_wrapped(stderr, "note: ", text);
   };
   return events;
 }
@@ -117,7 +124,7 @@ void StudyDisplay::ended(const study::StageEnd& end) {
       failed && progress_.node(end.node).failure ? progress_.node(end.node).failure->text : "";
   ++ended_;
   close();
-  if (failed) fmt::print(stderr, "failed: {}: {}\n", name_of(end.node), harmless(text));
+  if (failed) tell_failure(name_of(end.node), text);
   if (kind_ == StudyOutput::json) {
     print_json({{"event", failed ? "failed" : "done"},
                 {"stage", node.stage.name},
@@ -221,7 +228,7 @@ void StudyDisplay::end(const std::filesystem::path& folder, const study::Table& 
     return;
   }
   if (kind_ == StudyOutput::quiet) return;
-  for (const std::string& line : failures()) fmt::print("failed: {}\n", line);
+  for (const std::string& line : failures()) print_wrapped(stdout, "failed: ", line);
   fmt::print("{:<24} {} done, {} failed\n", "rows", done, failed);
   if (const study::Column* runout = table.find("runout_m")) {
     std::vector<double> values;
@@ -262,7 +269,7 @@ void StudyDisplay::status(const std::filesystem::path& folder, double bytes) con
                 {"rows", list}});
     return;
   }
-  for (const std::string& line : failures()) fmt::print("failed: {}\n", line);
+  for (const std::string& line : failures()) print_wrapped(stdout, "failed: ", line);
   fmt::print("{}: {} rows done, {} failed, {} open; {} of {} stages; {:.1f} MB\n", plan_.name, done,
              failed, open, progress_.count(State::done), plan_.nodes.size(), bytes / 1e6);
 }

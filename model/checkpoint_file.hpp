@@ -15,7 +15,15 @@
 /// program on the same machine. docs/adr/0008-checkpoints.md
 namespace flowslide {
 
-inline constexpr double kCheckpointSeconds = 15.0;  ///< wall time between checkpoints of a run
+inline constexpr double kCheckpointSeconds =
+    15.0;                                         ///< least wall time between checkpoints of a run
+inline constexpr double kCheckpointShare = 0.01;  ///< of the wall time, that checkpoints may take
+
+/// Wall time from one checkpoint, which took `saved` to write, to the next [s].
+constexpr double checkpoint_interval(double saved) {
+  const double least = saved / kCheckpointShare;
+  return least > kCheckpointSeconds ? least : kCheckpointSeconds;
+}
 
 /// Whether there is one, after what killed writers left beside it is gone. Throws FileError.
 bool find_checkpoint(const std::filesystem::path& path);

@@ -39,6 +39,7 @@ double run_to_end(R& run, const std::filesystem::path& checkpoint, const Progres
   };
   const Clock::time_point start = Clock::now();
   Clock::time_point last_report = start, last_save = start;
+  double interval = kCheckpointSeconds;
   while (!run.ended()) {
     const bool recorded = run.step();
     if (recorded || run.ended() || since(last_report) > kReportSeconds) {
@@ -51,8 +52,10 @@ double run_to_end(R& run, const std::filesystem::path& checkpoint, const Progres
       throw Interrupted("interrupted at " + run.place() +
                         "; the same command continues from there");
     }
-    if (since(last_save) > kCheckpointSeconds) {
+    if (since(last_save) > interval) {
+      const Clock::time_point before = Clock::now();
       run.save(since(start));
+      interval = checkpoint_interval(since(before));
       last_save = Clock::now();
     }
   }

@@ -56,6 +56,8 @@ struct LiquefactionZone {
   double strong_shaking_end = 0.0;  ///< 95 % of the base's squared velocity have passed [s]
   double onset_time = 0.0;          ///< of failure [s]; NaN if there was none up to the transfer
   ZoneHistory history;
+  /// Nothing was shaken: what liquefied is as the settings say, not found.
+  [[nodiscard]] bool is_assumed() const { return transfer_frame < 0; }
   std::vector<std::string> notes;  ///< clamped values, skipped nodes, one line each
 };
 

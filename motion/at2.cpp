@@ -3,6 +3,8 @@
 #include "core/check.hpp"
 #include "core/units.hpp"
 
+#include <cmath>
+
 namespace flowslide {
 namespace {
 
@@ -28,15 +30,31 @@ void check_count(const RecordText& text, const At2Header& header, std::size_t fo
   notes.push_back(both + "; those that fill up the last line were dropped");
 }
 
+/// What the header or else the user says. Both may, if they agree: a wrong unit is a wrong size of
+/// the whole motion.
+std::string unit_of(const RecordText& text, const At2Header& header, const RecordFormat& format) {
+  if (!header.unit) {
+    validate(format.unit.has_value(),
+             "{}: the header does not state the unit of acceleration (g or cm/s2?) give `unit`",
+             text.name);
+    return *format.unit;
+  }
+  if (format.unit) {
+    const double ratio =
+        unit_factor(*format.unit, Dim::acceleration) / unit_factor(*header.unit, Dim::acceleration);
+    validate(std::abs(ratio - 1.0) < 1e-9,
+             "{}:{}: the header says {}, but `unit` is {} (accelerations would be {:.4g} times "
+             "those of the header) leave `unit` out, or correct the header in a copy of the file",
+             text.name, header.unit_line + 1, *header.unit, *format.unit, ratio);
+  }
+  return *header.unit;
+}
+
 }  // namespace
 
 Record parse_at2(const RecordText& text, const RecordFormat& format) {
   const At2Header header = parse_at2_header(text);
-  const std::optional<std::string> unit = header.unit ? header.unit : format.unit;
-  validate(unit.has_value(),
-           "{}: the header does not state the unit of acceleration (g or cm/s2?) give `unit`",
-           text.name);
-  const double to_si = unit_factor(*unit, Dim::acceleration);
+  const double to_si = unit_factor(unit_of(text, header, format), Dim::acceleration);
 
   Record record{.motion = {.dt = header.dt, .acceleration = {}, .origin = text.name}, .notes = {}};
   if (!header.title.empty()) record.motion.origin += " (" + header.title + ")";

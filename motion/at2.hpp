@@ -14,6 +14,7 @@ struct At2Header {
   std::size_t npts = 0;
   double dt = kUnset;               ///< [s]
   std::optional<std::string> unit;  ///< of acceleration, in the spelling of core/units.hpp
+  std::size_t unit_line = 0;        ///< that states it, from 0
   std::string title;                ///< event, date, station and component
   std::size_t data_line = 0;        ///< first line after the header, from 0
 };

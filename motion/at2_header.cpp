@@ -137,6 +137,7 @@ At2Header parse_at2_header(const RecordText& text) {
   At2Header header{.npts = static_cast<std::size_t>(*npts),
                    .dt = *dt,
                    .unit = {},
+                   .unit_line = 0,
                    .title = {},
                    .data_line = last + 1};
   if (first >= 2) header.title = std::string(trimmed(text.lines[1]));
@@ -144,7 +145,9 @@ At2Header parse_at2_header(const RecordText& text) {
     refuse_other_series(text.name, i, upper[i]);
     // The title may hold any word, a unit's name too.
     if (i == 1 && first > 2) continue;
-    if (!header.unit) header.unit = stated_unit(text.name, i, upper[i]);
+    if (header.unit) continue;
+    header.unit = stated_unit(text.name, i, upper[i]);
+    header.unit_line = i;
   }
   return header;
 }

@@ -35,7 +35,7 @@ std::string_view verdict(const Movement& m) {
 std::string movements(const std::vector<Movement>& list, std::string_view kind, double moved) {
   std::string out = fmt::format(
       "| {} | | moved > {:g} m (share of mass) | mean displacement (m) | largest (m) | volume "
-      "(m3/m) | points |\n|---|---|---:|---:|---:|---:|---:|\n",
+      "(m³/m) | points |\n|---|---|---:|---:|---:|---:|---:|\n",
       kind, moved);
   for (const Movement& m : list)
     out += fmt::format("| {} | {} | {:.1f} % | {:.2f} | {:.2f} | {:.0f} | {} |\n", cell(m.name),
@@ -70,9 +70,9 @@ std::string key_numbers(const ReportFacts& f, const ReportConfig& c) {
        {"kinetic energy at rest after", number(f.time_at_rest, 2, "s")},
        {"largest speed of a point", number(f.peak_speed, 2, "m/s")},
        {"largest speed of the front", number(f.peak_front_speed, 2, "m/s")},
-       {"failed volume", number(f.failed_volume, 1, "m3/m")},
+       {"failed volume", number(f.failed_volume, 1, "m³/m")},
        {"failed share of the counted volume", number(f.failed_percent, 1, "%")},
-       {"volume beyond the toe", number(f.volume_past_toe, 1, "m3/m")},
+       {"volume beyond the toe", number(f.volume_past_toe, 1, "m³/m")},
        {"mass beyond the toe", number(f.composition.mass_past_toe, 0, "kg/m")},
        {"deepest failed point, undeformed y", number(f.deepest_failed, 2, "m")},
        {fmt::format("the same leaving out {:g} % of the failed mass", 100.0 * c.mass_quantile),
@@ -106,7 +106,7 @@ std::string liquefaction(const ReportInputs& in, const ReportFacts& f) {
           ? "The state at rest was transferred; there was no shaking to choose from.\n"
           : fmt::format("The state at t = {:.3f} s was transferred (frame {} of {}).\n",
                         zone.transfer_time, zone.transfer_frame + 1, in.history.times().size());
-  out += fmt::format("Reason: {}\n\nThe liquefied zone has {} elements, {:.0f} m2.\n\n",
+  out += fmt::format("Reason: {}\n\nThe liquefied zone has {} elements, {:.0f} m².\n\n",
                      cell(zone.transfer_reason), elements, area_liquefied);
   out += zone_shares_markdown(f);
   Rows rows;

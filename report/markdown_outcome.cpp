@@ -34,10 +34,11 @@ std::string headline(const ReportFacts& f, const ReportConfig& c) {
 
 std::string crest_sentence(const CrestFacts& crest) {
   if (!is_set(crest.level)) return "";
-  std::string out = fmt::format(
-      "Its crest moved {:.2f} m outward and settled {:.2f} m, of which {:.2f} and {:.2f} m up to "
-      "the transfer",
-      crest.outward.both, crest.settlement.both, crest.outward.shaking, crest.settlement.shaking);
+  std::string out = fmt::format("Its crest moved {:.2f} m outward and settled {:.2f} m",
+                                crest.outward.both, crest.settlement.both);
+  if (std::max(std::abs(crest.outward.shaking), std::abs(crest.settlement.shaking)) >= 0.005)
+    out += fmt::format(", of which {:.2f} and {:.2f} m up to the transfer", crest.outward.shaking,
+                       crest.settlement.shaking);
   if (is_set(crest.freeboard))
     out += crest.freeboard > 0.0
                ? fmt::format("; {:.2f} m of freeboard are left", crest.freeboard)
@@ -62,12 +63,12 @@ std::string summary_markdown(const ReportFacts& f, const ReportConfig& c) {
     return out + fmt::format("No point of the materials that count moved by more than {:g} m.\n\n",
                              c.moved);
   out += fmt::format(
-      "{:.0f} m3 per metre of width ({:.0f} % of the materials that count) moved by "
+      "{:.0f} m³ per metre of width ({:.0f} % of the materials that count) moved by "
       "more than {:g} m; ",
       f.failed_volume, f.failed_percent, c.moved);
   out += fmt::format("the deepest of it lay at y = {:.1f} m. ", f.deepest_failed);
   if (f.runout > 0.0)
-    out += fmt::format("{:.0f} m3 per metre came to lie beyond the toe. ", f.volume_past_toe);
+    out += fmt::format("{:.0f} m³ per metre came to lie beyond the toe. ", f.volume_past_toe);
   out += fmt::format("The fastest point reached {:.1f} m/s, the front {:.1f} m/s. ", f.peak_speed,
                      f.peak_front_speed);
   if (is_set(f.front_at_rest))

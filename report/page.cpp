@@ -77,8 +77,9 @@ std::string cards(const ReportInputs& in, const ReportFacts& f) {
                         ? fmt::format("{:.1f} m by mass", f.runout_mass)
                         : fmt::format("front {:.1f} m short of the toe", f.toe - f.front)});
   for (const auto& [window, depth] : f.liquefaction_depth)
-    list.push_back({"liquefied, " + window_label(window), number(depth, 1), "m", "largest depth"});
-  list.push_back({"failed volume", number(f.failed_volume, 0), "m3/m",
+    list.push_back({"liquefied, " + window_label(window), number(depth, 1), "m",
+                    in.zone.is_assumed() ? "assumed, not shaken" : "largest depth"});
+  list.push_back({"failed volume", number(f.failed_volume, 0), "m³/m",
                   fmt::format("{:.0f} % of what counts", f.failed_percent)});
   list.push_back({"fastest point", number(f.peak_speed, 1), "m/s", ""});
   const double rest = is_set(f.front_at_rest) ? f.front_at_rest : f.time_at_rest;

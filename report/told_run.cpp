@@ -214,15 +214,16 @@ double percent(double part, double whole) { return std::round(100.0 * part / who
 std::string why(const ReportInputs& in, const ReportFacts& f, const FinalState& end) {
   std::string out = "**Why**\n\n";
   const Strength s = strength_of(in);
+  const std::string_view did = in.zone.is_assumed() ? "is assumed to liquefy" : "liquefied";
   for (const auto& [window, depth] : f.liquefaction_depth)
-    out += fmt::format("- {} soil liquefied to a depth of {:.1f} m.\n",
+    out += fmt::format("- {} soil {} to a depth of {:.1f} m.\n",
                        window == kWholeSoil ? "The" : fmt::format("Under the {} the", cell(window)),
-                       depth);
+                       did, depth);
   if (s.area > 0.0)
     out += fmt::format(
-        "- {:.0f} m2 of the section liquefied; its residual strength is {:.3g} kPa on average "
+        "- {:.0f} m² of the section {}; its residual strength is {:.3g} kPa on average "
         "({:.3g} to {:.3g} kPa).\n",
-        s.area, s.mean / 1e3, s.low / 1e3, s.high / 1e3);
+        s.area, did, s.mean / 1e3, s.low / 1e3, s.high / 1e3);
   else
     out += "- Nothing of the section liquefied.\n";
   if (const double left = strength_left(in, end); is_set(left))
@@ -255,7 +256,7 @@ std::string what_changes(const ReportInputs& in) {
   add(map, "c_soft_ratio", "softening c_soft / S_r", "lower");
   if (s.area > 0.0)
     rows.push_back(
-        {"liquefied part of the section", fmt::format("{:.0f} m2", s.area), "deeper, wider"});
+        {"liquefied part of the section", fmt::format("{:.0f} m²", s.area), "deeper, wider"});
   if (const ToldStage* motion = find_stage(in.stages, "motion.prepare"))
     rows.push_back({"motion",
                     fmt::format("PGA {:.2g} g, Tm {:.2g} s",

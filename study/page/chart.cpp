@@ -111,12 +111,12 @@ Svg draw(const ScatterChart& chart) {
                "bar");
   for (const Dot& d : chart.dots)
     svg.circle(frame.x(d.x), frame.y(d.y), 4.5, series_class(d.series), d.title);
-  if (chart.ramp && is_set(chart.ramp->breach.value)) {
-    const Ramp& r = *chart.ramp;
+  for (const auto& [r, series] : chart.ramps) {
+    if (!is_set(r.breach.value)) continue;
     svg.polyline(corner(frame, x0, 0.0) + corner(frame, r.breach.value, 0.0) +
                      corner(frame, r.saturation.value, r.plateau.value) +
                      corner(frame, x1, r.plateau.value),
-                 "fit");
+                 series ? fmt::format("fit f{}", *series % kColours) : "fit");
   }
   if (is_set(chart.usual_scatter)) {
     const double x = kWidth - kRight - 8.0, middle = kTop + 40.0;

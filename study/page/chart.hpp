@@ -17,13 +17,18 @@ struct Dot {
   std::string title;
 };
 
+struct ChartRamp {
+  Ramp ramp;
+  std::optional<std::size_t> series;  ///< absent: of all
+};
+
 struct ScatterChart {
   std::string x_label, y_label;
   std::vector<Dot> dots;
   std::vector<std::string> series;  ///< names, if there is more than one
   std::string series_label;
   double usual_scatter = kUnset;  ///< numerical scatter, drawn once as a bar
-  std::optional<Ramp> ramp;
+  std::vector<ChartRamp> ramps;
 };
 Svg draw(const ScatterChart& chart);
 

@@ -25,7 +25,8 @@ figcaption{font-size:.86rem;color:var(--soft);padding:.3rem .2rem 0}
 figure svg{width:100%;height:auto;display:block}
 svg text{font:12px var(--sans);fill:var(--soft)}svg .head{font-weight:600;fill:var(--ink)}
 .axis,.bar{stroke:var(--soft)}svg .grid{stroke:var(--wash)}.fit{stroke:var(--red);fill:none;stroke-width:2}
-.curve{stroke:var(--blue);fill:none;stroke-width:2}.band{fill:var(--blue);fill-opacity:.13}
+.f0{stroke:var(--blue)}.f1{stroke:var(--red)}.f2{stroke:var(--green)}.f3{stroke:var(--purple)}
+.f4{stroke:var(--orange)}.f5{stroke:var(--sky)}.curve{stroke:var(--blue);fill:none;stroke-width:2}.band{fill:var(--blue);fill-opacity:.13}
 .s0{fill:var(--blue)}.s1{fill:var(--red)}.s2{fill:var(--green)}.s3{fill:var(--purple)}
 .s4{fill:var(--orange)}.s5{fill:var(--sky)}circle{fill-opacity:.75}.low{fill:var(--sky)}
 .high{fill:var(--red)}.wide{overflow-x:auto;margin:0 0 1rem}
@@ -119,9 +120,12 @@ class Writer {
     close();
   }
 
-  /// The input by which dots are coloured: few values, and not what the chart is drawn over.
-  [[nodiscard]] const Column* colour(const std::string& x) const {
+  /// The input by which dots are coloured: that which parts the thresholds, or one of few values
+  /// that is not what the chart is drawn over.
+  [[nodiscard]] const Column* colour(const std::string& x, const std::string& y) const {
     constexpr std::size_t kMost = 6;
+    for (const Threshold& t : f_.thresholds)
+      if (t.x == x && t.y == y && !t.by.empty()) return table_.find(t.by);
     for (const Input& input : plan_.inputs) {
       const Column* c = table_.find(input.name);
       std::set<std::string> values;
@@ -143,8 +147,8 @@ class Writer {
                        .dots = {},
                        .series = {},
                        .series_label = {},
-                       .ramp = {}};
-    const Column &x = *table_.find(r.x), *by = colour(r.x);
+                       .ramps = {}};
+    const Column &x = *table_.find(r.x), *by = colour(r.x, r.y);
     for (const std::size_t g : f_.groups) {
       const auto& rows = f_.repeats.groups[g];
       const std::size_t row = rows[0];
@@ -166,8 +170,13 @@ class Writer {
     }
     if (by) chart.series_label = by->name;
     chart.usual_scatter = f_.scatter[result].numerical;
-    for (const Threshold& t : f_.thresholds)
-      if (t.x == r.x && t.y == r.y) chart.ramp = t.ramp;
+    for (const Threshold& t : f_.thresholds) {
+      if (t.x != r.x || t.y != r.y) continue;
+      chart.ramps.push_back({t.ramp, {}});
+      if (t.by.empty()) continue;
+      const auto at = std::find(chart.series.begin(), chart.series.end(), by->text[t.row]);
+      chart.ramps.back().series = static_cast<std::size_t>(at - chart.series.begin());
+    }
     add_figure(fmt::format("{}-{}", r.y, r.x), draw(chart),
                fmt::format("{} against {}. Rank correlation {}.", readable(table_, r.y),
                            readable(table_, r.x), interval(r.spearman)));

@@ -12,7 +12,8 @@ constexpr std::string_view kStyle =
     ".axis{stroke:#888}.grid{stroke:#e6e6e6}.bar{stroke:#888}.fit{stroke:#c2410c;fill:none;"
     "stroke-width:2}.curve{stroke:#1d4ed8;fill:none;stroke-width:2}.band{fill:#1d4ed822;stroke:none}"
     ".s0{fill:#1d4ed8}.s1{fill:#c2410c}.s2{fill:#15803d}.s3{fill:#7e22ce}.s4{fill:#a16207}"
-    ".s5{fill:#0e7490}circle{fill-opacity:.75}.low{fill:#0e7490}.high{fill:#c2410c}</style>"
+    ".f0{stroke:#1d4ed8}.f1{stroke:#c2410c}.f2{stroke:#15803d}.f3{stroke:#7e22ce}"
+    ".f4{stroke:#a16207}.f5{stroke:#0e7490}.s5{fill:#0e7490}circle{fill-opacity:.75}.low{fill:#0e7490}.high{fill:#c2410c}</style>"
     "<rect width='100%' height='100%' fill='#fff'/>";
 
 }  // namespace

@@ -140,7 +140,8 @@ std::string threshold_sentence(const Table& table, const Threshold& t) {
   if (!is_set(t.ramp.breach.value)) return "";
   const std::string x = xml_text(readable(table, t.x)), y = xml_text(readable(table, t.y));
   const bool begins = t.ramp.no_breach <= kMostWithout, ends = t.ramp.no_saturation <= kMostWithout;
-  std::string text = fmt::format("<li>{} against {}: ", y, x);
+  std::string text =
+      fmt::format("<li>{} against {}{}: ", y, x, t.where.empty() ? "" : ", " + xml_text(t.where));
   text += begins ? fmt::format("nothing below {}; ", interval(t.ramp.breach))
                  : "no value of it below which there is nothing; ";
   text += ends ? fmt::format("no growth beyond {}, at {}. ", interval(t.ramp.saturation),

@@ -91,7 +91,8 @@ void move_grids(Settings& set, const std::vector<Stage>& stages, std::size_t rea
 }  // namespace
 
 double change_of(std::size_t realisation, double step) {
-  const double size = static_cast<double>((realisation + 1) / 2) * step;
+  const std::size_t steps = (realisation + 1) / 2;
+  const double size = static_cast<double>(steps) * step;
   return realisation % 2 == 1 ? size : -size;
 }
 

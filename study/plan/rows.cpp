@@ -15,7 +15,7 @@ void add(Draft& row, const std::string& name, const std::string& place, const Ch
   }
 }
 
-std::vector<Draft> varied(std::vector<Draft> rows, const Variable& variable) {
+std::vector<Draft> varied(const std::vector<Draft>& rows, const Variable& variable) {
   std::vector<Draft> more;
   for (const Draft& row : rows)
     for (const Choice& choice : variable.choices)

@@ -80,10 +80,10 @@ SessionRecord from(const Json& j) {
 
 }  // namespace
 
-SessionLog::SessionLog(fs::path folder, SessionRecord what)
+SessionLog::SessionLog(const fs::path& folder, SessionRecord what)
     : record_(std::move(what)), began_(clock_seconds()), used_before_(processor_time()) {
   record_.began = utc_now();
-  path_ = std::move(folder) / kFolder / fmt::format("{}-{}.json", record_.began, ::getpid());
+  path_ = folder / kFolder / fmt::format("{}-{}.json", record_.began, ::getpid());
   remove_leftovers(path_.parent_path());
 }
 

@@ -22,7 +22,7 @@ struct SessionRecord {
 /// Counts from its construction on; written after every stage, as a session may be killed.
 class SessionLog {
  public:
-  SessionLog(std::filesystem::path folder, SessionRecord what);
+  SessionLog(const std::filesystem::path& folder, SessionRecord what);
   void stage_made();
 
  private:

@@ -70,8 +70,7 @@ Ramp fit_ramp(const std::vector<double>& x, const std::vector<double>& y, const 
   const std::size_t n = search.rows.x.size();
   Ramp ramp;
   ramp.breach.rows = ramp.saturation.rows = ramp.plateau.rows = n;
-  constexpr std::size_t kFewest = 8;
-  if (n < kFewest) return ramp;
+  if (n < kFewestForRamp) return ramp;
   search.low = *std::min_element(search.rows.x.begin(), search.rows.x.end());
   search.high = *std::max_element(search.rows.x.begin(), search.rows.x.end());
   if (!(search.high > search.low)) return ramp;

@@ -22,7 +22,9 @@ struct Ramp {
 /// Largest share of resamples without a threshold for which it still counts as seen.
 inline constexpr double kMostWithout = 0.05;
 
-/// Rows with NaN are left out; nothing for fewer than eight rows.
+inline constexpr std::size_t kFewestForRamp = 8;
+
+/// Rows with NaN are left out; nothing for fewer than kFewestForRamp rows.
 Ramp fit_ramp(const std::vector<double>& x, const std::vector<double>& y, const Resampling& how);
 
 }  // namespace flowslide::study

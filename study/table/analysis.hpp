@@ -26,8 +26,13 @@ struct Swing {
   Effect effect;
 };
 
+/// Of the rows that share the inputs which y hangs on beside x, where there are enough of them:
+/// each strength has a curve of its own.
 struct Threshold {
   std::string x, y;
+  std::string by;       ///< the first of those inputs; empty: all rows
+  std::string where;    ///< "c_soft 0.5"; empty: all rows
+  std::size_t row = 0;  ///< one of them
   Ramp ramp;
 };
 

@@ -24,6 +24,7 @@ Json json_of(const Relation& r) {
 Json json_of(const Threshold& t) {
   return {{"x", t.x},
           {"y", t.y},
+          {"where", t.where},
           {"breach", json_of(t.ramp.breach)},
           {"breach_seen", t.ramp.no_breach <= kMostWithout},
           {"saturation", json_of(t.ramp.saturation)},

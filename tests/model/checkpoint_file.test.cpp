@@ -40,6 +40,13 @@ std::string refusal(const std::filesystem::path& path, std::uint64_t fields = 7)
 
 }  // namespace
 
+TEST_CASE("Checkpoints take a hundredth of the time at most, however slow the disk", "[model]") {
+  CHECK(checkpoint_interval(0.02) == kCheckpointSeconds);  // 50 MB on a common disk
+  const double slow = checkpoint_interval(3.0);
+  CHECK(3.0 / slow <= kCheckpointShare);
+  CHECK(slow < 400.0);  // and are not given up
+}
+
 TEST_CASE("a checkpoint comes back to the bit") {
   const Scratch folder;
   write(folder / "c");

@@ -85,7 +85,9 @@ TEST_CASE("the unit may stand with the counts, or be declared", "[motion]") {
   check_values(parse_record(at2("ACCELERATION", kCounts + " UNITS= CM/S2", kData), "a.AT2"), 0.01);
   check_values(parse_record(at2("ACCELERATION", kCounts, kData), "a.AT2", {.unit = "cm/s2"}), 0.01);
   // What the header states is not overruled.
-  check_values(parse_record(at2(kUnits, kCounts, kData), "a.AT2", {.unit = "cm/s2"}), kGravity);
+  check_values(parse_record(at2(kUnits, kCounts, kData), "a.AT2", {.unit = "g"}), kGravity);
+  CHECK_THAT(message(at2(kUnits, kCounts, kData), {.unit = "cm/s2"}),
+             Contains("a.AT2:3: the header says g, but `unit` is cm/s2"));
   CHECK_THAT(message(at2("ACCELERATION", kCounts, kData)), Contains("does not state the unit"));
 }
 

@@ -70,7 +70,7 @@ TEST_CASE("A report tells motion, mesh, soils, strengths and grid without the wo
   dam_case::write_history(scratch / "history.h5", true);
   const FemHistory history(scratch / "history.h5");
   const MpmHistory flow(scratch / "mpm.h5");
-  const LiquefactionZone zone = dam_case::zone(mesh, true);
+  LiquefactionZone zone = dam_case::zone(mesh, true);
   const ReportInputs in{.history = history,
                         .zone = zone,
                         .particles = particles,
@@ -107,6 +107,9 @@ TEST_CASE("A report tells motion, mesh, soils, strengths and grid without the wo
                           .flow = flow,
                           .provenance = {}}),
              Contains("not known to the report"));
+  zone.transfer_frame = -1;  // the gravity state
+  CHECK_THAT(told_judgement(in, {}, whole, end),
+             Contains("- The soil is assumed to liquefy to a depth of 12"));
 }
 
 TEST_CASE("The surface of still water is level on a coarse mesh, and a pond stands above it") {

@@ -70,6 +70,34 @@ TEST_CASE("Table and analysis of a study whose answer is known", "[study]") {
   CHECK(json["relations"].size() == f.relations.size());
 }
 
+TEST_CASE("Rows of another input lie on a ramp of their own", "[study]") {
+  StudyBench bench;
+  const Plan plan = bench.plan(
+      "  vary:\n"
+      "    one: {setting: stages.one.with.value, range: {from: 1, to: 9, step: 1}}\n"
+      "    factor: {setting: stages.sum.with.factor, values: [2, 1]}\n"
+      "  analysis: {results: [sum], thresholds: [[one, sum]]}\n");
+  bench.run(plan);
+  const Table table = make_table(plan, bench.progress(plan));
+  const StudyFindings f = analyse(plan, table);
+  REQUIRE(f.thresholds.size() == 2);
+  CHECK(f.thresholds[0].where == "factor 1");
+  CHECK(f.thresholds[1].where == "factor 2");
+  CHECK(f.thresholds[1].by == "factor");
+  CHECK(table.find("factor")->number[f.thresholds[1].row] == 2.0);
+  CHECK(f.thresholds[1].ramp.plateau.value == Approx(2.0 * f.thresholds[0].ramp.plateau.value));
+  // The control: all rows on one ramp, which neither of them follows.
+  std::vector<double> x, y;
+  for (std::size_t i = 0; i < table.rows; ++i) {
+    x.push_back(table.find("one")->number[i]);
+    y.push_back(table.find("sum")->number[i]);
+  }
+  CHECK(fit_ramp(x, y, 1).r2 < f.thresholds[0].ramp.r2 - 0.1);
+  const Page page = make_page(plan, table, f);
+  CHECK_THAT(page.html, Contains("one, factor 1: "));
+  CHECK_THAT(page.html, Contains("class='fit f1'"));
+}
+
 TEST_CASE("The page of a study is one file that asks nothing of the network", "[study]") {
   StudyBench bench;
   const Plan plan = bench.plan(kStudy + "  keep: numbers\n");
