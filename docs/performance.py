@@ -104,7 +104,7 @@ def with_seconds(folder):
 
 
 CHAIN = (
-    "size", "repeat", "state", "fem_elements", "particles", "core_seconds", "transfer_time_s",
+    "size [m]", "repeat", "state", "mesh_elements", "particles", "core_seconds", "transfer_time_s",
     "liquefaction_depth_pond_interpolated_m", "runout_m", "runout_995_m", "mass_past_toe_kg_per_m",
 )
 
@@ -122,7 +122,7 @@ def chain_table(rows):
     groups = {}
     for row in rows:
         if row["state"] == "done":
-            groups.setdefault(row["size"], []).append(row)
+            groups.setdefault(row["size [m]"], []).append(row)
     finest = list(groups.values())[-1]
     def cells(repeats, name, scale=1.0, digits=1):
         values = [scale * float(r[name]) for r in repeats]
@@ -143,7 +143,7 @@ def chain_table(rows):
     for size, repeats in groups.items():
         column = lambda name: [float(r[name]) for r in repeats]
         lines.append(
-            f"| {size} | {column('fem_elements')[0]:,.0f} | {column('particles')[0]:,.0f} "
+            f"| {float(size):g} m | {column('mesh_elements')[0]:,.0f} | {column('particles')[0]:,.0f} "
             f"| {len(repeats)} | {statistics.mean(column('core_seconds')):.0f} "
             f"| {mean_and_scatter(column('transfer_time_s'))} "
             f"| {cells(repeats, 'liquefaction_depth_pond_interpolated_m')} "
