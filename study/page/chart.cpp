@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -92,6 +93,33 @@ std::vector<double> round_numbers(double low, double high, int n) {
   return numbers;
 }
 
+namespace {
+
+/// Draws the numerical scatter at the right edge, at that height where the fewest dots are.
+void draw_scatter(Svg& svg, const Frame& frame, const ScatterChart& chart) {
+  constexpr double kWords = 150.0;  ///< width of bar and words
+  const double x = kWidth - kRight - 8.0;
+  const double half = std::abs(frame.y(0.0) - frame.y(chart.usual_scatter));
+  const double margin = std::min(half, 30.0) + 10.0;
+  double middle = 0.0;
+  std::ptrdiff_t fewest = std::numeric_limits<std::ptrdiff_t>::max();
+  for (const double share : {0.0, 1.0, 0.5, 0.25, 0.75}) {
+    const double y = kTop + margin + share * (kHeight - kBottom - kTop - 2.0 * margin);
+    const auto near = std::count_if(chart.dots.begin(), chart.dots.end(), [&](const Dot& d) {
+      return frame.x(d.x) > x - kWords && std::abs(frame.y(d.y) - y) < margin;
+    });
+    if (near >= fewest) continue;
+    fewest = near;
+    middle = y;
+  }
+  svg.line(x, middle - half, x, middle + half, "bar");
+  svg.line(x - 4.0, middle - half, x + 4.0, middle - half, "bar");
+  svg.line(x - 4.0, middle + half, x + 4.0, middle + half, "bar");
+  svg.text(x - 8.0, middle + 4.0, "numerical scatter", "end");
+}
+
+}  // namespace
+
 Svg draw(const ScatterChart& chart) {
   double x0 = HUGE_VAL, x1 = -HUGE_VAL, y0 = 0.0, y1 = -HUGE_VAL;
   for (const Dot& d : chart.dots) {
@@ -118,14 +146,7 @@ Svg draw(const ScatterChart& chart) {
                      corner(frame, x1, r.plateau.value),
                  series ? fmt::format("fit f{}", *series % kColours) : "fit");
   }
-  if (is_set(chart.usual_scatter)) {
-    const double x = kWidth - kRight - 8.0, middle = kTop + 40.0;
-    const double half = std::abs(frame.y(0.0) - frame.y(chart.usual_scatter));
-    svg.line(x, middle - half, x, middle + half, "bar");
-    svg.line(x - 4.0, middle - half, x + 4.0, middle - half, "bar");
-    svg.line(x - 4.0, middle + half, x + 4.0, middle + half, "bar");
-    svg.text(x - 8.0, middle + 4.0, "numerical scatter", "end");
-  }
+  if (is_set(chart.usual_scatter)) draw_scatter(svg, frame, chart);
   draw_legend(svg, chart);
   return svg;
 }

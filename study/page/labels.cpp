@@ -1,12 +1,19 @@
 #include "study/page/labels.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
 namespace flowslide::study {
 
-std::string short_number(double v) { return is_set(v) ? fmt::format("{:.3g}", v) : "-"; }
+std::string short_number(double v) {
+  if (!is_set(v)) return "-";
+  // Three digits of it, as 1150 and not as 1.15e+03.
+  if (std::abs(v) < 1e3 || std::abs(v) >= 1e6) return fmt::format("{:.3g}", v);
+  const double unit = std::abs(v) < 1e4 ? 10.0 : std::abs(v) < 1e5 ? 100.0 : 1000.0;
+  return fmt::format("{:.0f}", unit * std::round(v / unit));
+}
 
 std::string interval(const Estimate& e) {
   if (!is_set(e.value)) return "-";

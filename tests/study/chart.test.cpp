@@ -27,3 +27,23 @@ TEST_CASE("values that differ by rounding alone are drawn as one", "[study]") {
   CHECK(text.find("nan") == std::string::npos);
   CHECK(text.find(">10<") != std::string::npos);
 }
+
+TEST_CASE("The bar of the scatter keeps clear of the dots", "[study]") {
+  ScatterChart chart;
+  for (const double x : {0.0, 9.8, 10.0}) {
+    Dot dot;
+    dot.x = x;
+    dot.y = 100.0;
+    chart.dots.push_back(dot);
+  }
+  chart.usual_scatter = 5.0;
+  const auto height_of_words = [&] {
+    const std::string text = draw(chart).alone("runout");
+    const std::size_t words = text.find("numerical scatter");
+    return std::stod(text.substr(text.rfind("y='", words) + 3));
+  };
+  const double low = height_of_words();
+  for (Dot& d : chart.dots) d.y = 1.0;  // the control: the dots down there
+  chart.dots[0].y = 100.0;
+  CHECK(low - height_of_words() > 100.0);
+}
