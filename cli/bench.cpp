@@ -12,13 +12,14 @@ namespace {
 
 struct Options {
   std::vector<std::string> names;
-  bool json = false, list = false;
+  bool json = false, list = false, large = false;
 };
 
 int bench(const Options& options) {
-  const auto cases = select(all_benchmarks(), options.names);
+  const auto cases = select(all_benchmarks(), options.names, options.large || options.list);
   if (options.list) {
-    for (const BenchCase& c : cases) fmt::print("{:<26} {}\n", c.name, c.doc);
+    for (const BenchCase& c : cases)
+      fmt::print("{:<26} {}{}\n", c.name, c.doc, c.large ? " (large)" : "");
     return 0;
   }
   if (!options.json) fmt::print("{}\n", measurement_heading());
@@ -41,6 +42,8 @@ void add_bench(CLI::App& app, Command& action) {
   CLI::App* command = app.add_subcommand("bench", "Measure speed, and error against cost");
   command->add_option("names", options->names, "groups or benchmarks [all]");
   command->add_flag("--json", options->json, "as JSON");
+  command->add_flag("--large", options->large,
+                    "also the large ones, which are otherwise run by name only");
   command->add_flag("--list", options->list, "only list the benchmarks");
   command->callback([options, &action] { action = [options] { return bench(*options); }; });
 }

@@ -14,8 +14,8 @@ double thread_seconds() {
   return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
 }
 
-std::vector<BenchCase> select(std::span<const BenchCase> cases,
-                              std::span<const std::string> names) {
+std::vector<BenchCase> select(std::span<const BenchCase> cases, std::span<const std::string> names,
+                              bool large) {
   const auto fits = [](const BenchCase& c, const std::string& name) {
     return c.name.starts_with(name) || name.starts_with(c.name + "/");
   };
@@ -26,9 +26,12 @@ std::vector<BenchCase> select(std::span<const BenchCase> cases,
              name);
   }
   std::vector<BenchCase> chosen;
+  const auto asked = [&](const BenchCase& c, const std::string& name) {
+    return fits(c, name) && (!c.large || large || name.starts_with(c.name));
+  };
   for (const BenchCase& c : cases) {
-    if (names.empty() ||
-        std::any_of(names.begin(), names.end(), [&](const auto& n) { return fits(c, n); }))
+    if ((names.empty() && (!c.large || large)) ||
+        std::any_of(names.begin(), names.end(), [&](const auto& n) { return asked(c, n); }))
       chosen.push_back(c);
   }
   return chosen;

@@ -13,6 +13,8 @@ std::vector<BenchCase> mpm_benchmarks() {
       {"mpm/3d/quadratic", "whole steps in three dimensions, quadratic splines",
        mpm::measure_quadratic<3>},
       {"mpm/3d/valley", "the dam as a valley of 73 m, two million points", mpm::measure_valley},
+      {"mpm/large", "ten million points in the plane and two in space: speed and memory",
+       mpm::measure_large, true},
       {"mpm/curve", "error against processor time of bases and transfers", mpm::work_precision},
       {"mpm/front", "error of a dry column's front against processor time", mpm::front_precision},
   };

@@ -13,6 +13,11 @@ std::vector<Measurement> measure_linear();
 /// it takes.
 std::vector<Measurement> measure_valley();
 
+/// Updates per second and core of ten million points in plane strain and two million in space,
+/// beside the larger size of the rows above, and the peak memory per point from filling to
+/// stepping. A minute and 5 GB.
+std::vector<Measurement> measure_large();
+
 /// Error against processor time: a moving, swinging bar, four cell sizes for each line of
 /// basis and transfer. Lines that go unstable have no row for the cells where they do.
 std::vector<Measurement> work_precision();

@@ -241,6 +241,15 @@ FlowFacts run_flow(const ParticleSet& particles, const FlowConfig& config, const
   validate(is_set(particles.toe),
            "the points do not say from where the runout counts (no soil among them counts for it) "
            "let a material count, or give them a toe");
+  if (config.stiffness == Stiffness::automatic) {
+    ParticleSet softened = particles;
+    StiffnessChoice choice = soften(softened, config);
+    FlowConfig as_is = config;
+    as_is.stiffness = Stiffness::given;
+    FlowFacts facts = run_flow(softened, as_is, paths, threads, progress);
+    facts.stiffness = std::move(choice);
+    return facts;
+  }
   if (!config.extrude) return run_in<2>(particles, config, paths, threads, progress);
   FlowConfig valley = config;
   if (config.extrude->sides != Sides::open) valley.side_rollers = {0.0, config.extrude->width};

@@ -2,6 +2,7 @@
 #include "core/progress.hpp"
 #include "model/mpm_history.hpp"
 #include "mpm/run/flow_config.hpp"
+#include "mpm/run/stiffness.hpp"
 
 #include <filesystem>
 
@@ -20,10 +21,12 @@ struct FlowFacts {
   double point_updates = 0.0;  ///< sum over the steps of the points awake in them
   double step_seconds = 0.0;   ///< wall time of this call spent in steps [s]
   double updates_this_call = 0.0;
-  double absorbed = 0.0;  ///< energy that left through absorbing planes [J]
-  MpmSample last;         ///< the final row of the time series
+  double absorbed = 0.0;                     ///< energy that left through absorbing planes [J]
+  MpmSample last;                            ///< the final row of the time series
+  std::optional<StiffnessChoice> stiffness;  ///< with `stiffness: automatic`
 };
 
+/// With `stiffness: automatic` the history holds the elastic constants that were used.
 /// Runs to rest, to config.end, or until all points have left. With an existing checkpoint of the
 /// same run, continues from it: the history is then bit for bit that of an uninterrupted run.
 /// With config.extrude it is in three dimensions and the history has the particles' copies.

@@ -105,6 +105,27 @@ void Schema<ExtrudeSettings>::describe(FieldVisitor& v, ExtrudeSettings& c) {
            "the ground; open: none, the terrain holds the soil");
 }
 
+void Schema<StiffnessBounds>::describe(FieldVisitor& v, StiffnessBounds& c) {
+  v.quantity("volume_change", c.volume_change, Dim::none, {.max = 0.2, .above = 0.0},
+             "largest change of volume under the weight of the soil");
+  v.quantity("mach_number", c.mach_number, Dim::none, {.max = 1.0, .above = 0.0},
+             "largest speed of a free fall from the highest soil to the lowest ground, over that "
+             "of sound");
+  v.quantity("brittleness", c.brittleness, Dim::none, {.max = 1.0, .above = 0.0},
+             "largest fall of shear strength over plastic shear strain, over the shear modulus");
+}
+
+/// How stiff the soil is, and what keeps its softening apart from the cells.
+static void describe_soil(FieldVisitor& v, FlowConfig& c) {
+  static constexpr std::array<std::string_view, 2> kinds{"given", "automatic"};
+  v.group("softening", c.softening, Schema<SofteningSettings>::doc);
+  v.choice("stiffness", c.stiffness, kinds,
+           "elastic constants of the materials: as given, or automatic: no stiffer than "
+           "stiffness_bounds need and never stiffer than given, for longer steps; what was chosen "
+           "is told");
+  v.group("stiffness_bounds", c.stiffness_bounds, Schema<StiffnessBounds>::doc);
+}
+
 void Schema<SleepSettings>::describe(FieldVisitor& v, SleepSettings& c) {
   v.quantity("speed", c.speed, Dim::velocity, {.above = 0.0},
              "soil that moves less than speed x after in the time `after` is quiet");
@@ -181,7 +202,7 @@ void Schema<FlowConfig>::describe(FieldVisitor& v, FlowConfig& c) {
   v.quantity("right_roller", c.right_roller, Dim::length, {},
              "x of a vertical frictionless wall downstream");
   v.group("extrude", c.extrude, Schema<ExtrudeSettings>::doc);
-  v.group("softening", c.softening, Schema<SofteningSettings>::doc);
+  describe_soil(v, c);
   describe_scheme(v, c);
   v.quantity("gravity", c.gravity, Dim::acceleration, {.min = 0.0}, "acceleration of gravity");
   v.quantity("courant", c.courant, Dim::none, {.max = 1.0, .above = 0.0},

@@ -13,6 +13,7 @@ namespace flowslide {
 
 using mpm::VolumeAverage;
 enum class Sides { smooth, rough, open };
+enum class Stiffness { given, automatic };
 
 struct SofteningSettings {
   bool regularise = true;
@@ -47,6 +48,13 @@ struct SleepSettings {
   double after = 1.0;   ///< [s]
 };
 
+/// docs/theory/stiffness.md
+struct StiffnessBounds {
+  double volume_change = 0.01;  ///< [-]
+  double mach_number = 0.1;     ///< [-]
+  double brittleness = 0.1;     ///< [-]
+};
+
 struct OutletSettings {
   std::optional<double> left, right, bottom, top;  ///< [m]
 };
@@ -74,6 +82,8 @@ struct FlowConfig : mpm::StepSettings {
   /// Walls at two y [m] in three dimensions, as `extrude` sets them.
   std::optional<std::array<double, 2>> side_rollers;
   SofteningSettings softening;
+  Stiffness stiffness = Stiffness::given;
+  StiffnessBounds stiffness_bounds;
   double gravity = 9.81;  ///< [m/s2]
   std::optional<SleepSettings> sleep;
   RestRule rest;
@@ -120,6 +130,13 @@ struct Schema<ExtrudeSettings> {
       "Runs the section as a straight valley in three dimensions: x as in the section, y across, z "
       "up. Masses and energies of the time series are those of the whole width.";
   static void describe(FieldVisitor& v, ExtrudeSettings& c);
+};
+template <>
+struct Schema<StiffnessBounds> {
+  static constexpr std::string_view doc =
+      "With stiffness automatic: what the soil must be stiff enough for. A bound that the given "
+      "constants break is not mended.";
+  static void describe(FieldVisitor& v, StiffnessBounds& c);
 };
 template <>
 struct Schema<SleepSettings> {

@@ -8,12 +8,13 @@ using namespace flowslide;
 namespace {
 
 std::vector<Measurement> none() { return {}; }
-const std::vector<BenchCase> kCases{{"mpm/2d", "", none}, {"mpm/3d", "", none}};
+const std::vector<BenchCase> kCases{
+    {"mpm/2d", "", none}, {"mpm/3d", "", none}, {"mpm/large", "", none, true}};
 
-std::vector<std::string> names(std::initializer_list<std::string> asked) {
+std::vector<std::string> names(std::initializer_list<std::string> asked, bool large = false) {
   std::vector<std::string> r;
   const std::vector<std::string> list(asked);
-  for (const auto& c : select(kCases, list)) r.push_back(c.name);
+  for (const auto& c : select(kCases, list, large)) r.push_back(c.name);
   return r;
 }
 
@@ -23,6 +24,10 @@ TEST_CASE("Benchmarks are chosen by the beginning of their names", "[core]") {
   CHECK(names({}).size() == 2);
   CHECK(names({"mpm"}).size() == 2);
   CHECK(names({"mpm/3d/quadratic"}) == std::vector<std::string>{"mpm/3d"});
+  CHECK(names({"mpm/large"}) == std::vector<std::string>{"mpm/large"});
+  CHECK(names({"mpm/large/2d"}) == std::vector<std::string>{"mpm/large"});
+  CHECK(names({}, true).size() == 3);
+  CHECK(names({"mpm"}, true).size() == 3);
   CHECK_THROWS_AS(names({"fem"}), InputError);
   CHECK_THROWS_AS(names({"mpm/2day"}), InputError);
 }

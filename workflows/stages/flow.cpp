@@ -10,6 +10,17 @@
 namespace flowslide {
 namespace {
 
+nlohmann::ordered_json stiffness_facts(const StiffnessChoice& choice) {
+  nlohmann::ordered_json materials;
+  for (const StiffnessOfMaterial& m : choice.materials)
+    materials[m.material] = {{"bulk_modulus_pa", m.used.bulk},
+                             {"given_bulk_modulus_pa", m.given.bulk},
+                             {"volume_change", m.volume_change},
+                             {"mach_number", m.mach_number},
+                             {"brittleness", m.brittleness}};
+  return {{"fall_m", choice.fall}, {"materials", materials}};
+}
+
 struct FlowStage {
   static constexpr std::string_view name = "mpm.run";
   static constexpr std::string_view doc = "The runout, with the material point method.";
@@ -67,8 +78,14 @@ struct FlowStage {
                                     {"flow_point_updates_per_s", rate}};
     if (config.absorbing.left || config.absorbing.right || config.absorbing.bottom)
       facts["absorbed_energy_j_per_m"] = f.absorbed / width;
+    std::vector<std::string> warnings = snapping_soils(particles, config);
+    if (f.stiffness) {
+      facts["stiffness"] = stiffness_facts(*f.stiffness);
+      for (std::string& text : told(*f.stiffness)) warnings.push_back(std::move(text));
+    }
     return {.facts = facts.dump(),
             .publish = {},
+            .warnings = warnings,
             .headlines = {{"runout_m", "runout", "m"},
                           {"mass_error", "mass error"},
                           {"energy_error", "energy error"}}};

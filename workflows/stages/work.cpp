@@ -1,6 +1,7 @@
 #include "workflows/stages/work.hpp"
 
 #include "core/conventions.hpp"
+#include "mpm/run/stiffness.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -62,14 +63,22 @@ double points_of(const MapConfig& map, const Soil& soil) {
   return soil.area * per_metre * per_metre;
 }
 
-/// (K + 2 G) / rho [m2/s2]
-double wave2(double youngs_modulus, double poisson_ratio, double density) {
-  const double bulk = youngs_modulus / (3.0 * (1.0 - 2.0 * poisson_ratio));
-  return (bulk + youngs_modulus / (1.0 + poisson_ratio)) / density;
-}
-
-double fastest_wave(const MapConfig& map, const std::vector<HistoryMaterial>& materials) {
+double fastest_wave(const FlowConfig& flow, const MapConfig& map,
+                    const std::vector<HistoryMaterial>& materials, const Soil& soil) {
   double most2 = 0.0;
+  double lowest = soil.all.bottom;
+  for (const auto& point : flow.ground.surface) lowest = std::min(lowest, point[1]);
+  const double fall = soil.all.top - lowest;
+  // (K + 2 G) / rho [m2/s2]
+  const auto wave2 = [&](double youngs_modulus, double poisson_ratio, double density) {
+    Elasticity e = Elasticity::from_young(youngs_modulus, poisson_ratio);
+    if (flow.stiffness == Stiffness::automatic)
+      e = no_stiffer(e,
+                     needed_bulk(flow.stiffness_bounds, density, density * flow.gravity * fall,
+                                 fall_speed(flow.gravity, fall)),
+                     0.0);
+    return (e.bulk + 2.0 * e.shear) / density;
+  };
   for (const auto& [name, m] : map.materials) {
     double density = std::numeric_limits<double>::infinity();
     for (const std::string& source : sources_of(name, m))
@@ -119,8 +128,9 @@ Work map_work(const MapConfig& map, const Soil& soil) {
 
 Work flow_work(const FlowConfig& flow, const MapConfig& map,
                const std::vector<HistoryMaterial>& materials, const Soil& soil) {
-  const double wave = fastest_wave(map, materials);
-  if (!(wave > 0.0) || soil.counted.empty()) return {};
+  if (soil.counted.empty()) return {};
+  const double wave = fastest_wave(flow, map, materials, soil);
+  if (!(wave > 0.0)) return {};
   const bool plane = !flow.extrude;
   const double across = plane ? 1.0 : flow.extrude->width * map.points_per_cell / map.cell;
   const double points = points_of(map, soil) * across;
