@@ -171,12 +171,12 @@ TEST_CASE("The script of an array is the one that is kept", "[study]") {
   SlurmSettings settings;
   settings.partition = "compute";
   settings.account = "geo";
-  settings.options = {"--qos=low", "--comment=for \"Anna\" # 2"};
+  settings.options = {"--qos=low", "--comment=for \"dam\" # 2"};
   Script script{.name = "rows",
                 .study = "dam",
                 .about = "Study dam, rows: 12 stages, expected to be 3 tasks of 33 to 38 min each.",
                 .folder = "/data/dam/slurm/1",
-                .directory = "/home/anna/it's here",
+                .directory = "/scratch/it's here",
                 .command = {"/usr/bin/flowslide", "study", "part", "/data/dam/slurm/1/rows.json"}};
   script.tasks = 3;
   script.cpus = 4;
