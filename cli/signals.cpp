@@ -12,10 +12,10 @@ extern "C" void on_signal(int) { stop.store(true); }
 
 }  // namespace
 
-const std::atomic<bool>& stop_on_signal() {
+const std::atomic<bool>& stop_on_signal(Again again) {
   struct sigaction action {};
   action.sa_handler = on_signal;
-  action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
+  action.sa_flags = (again == Again::ends ? static_cast<int>(SA_RESETHAND) : 0) | SA_RESTART;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
   return stop;

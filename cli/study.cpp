@@ -1,24 +1,23 @@
 #include "cli/command.hpp"
-#include "cli/processors.hpp"
 #include "cli/signals.hpp"
+#include "cli/study_batch.hpp"
 #include "cli/study_display.hpp"
+#include "cli/study_pool.hpp"
 #include "core/check.hpp"
 #include "core/files.hpp"
-#include "core/memory.hpp"
+#include "core/hash.hpp"
 #include "study/page/page.hpp"
 #include "study/run/clean.hpp"
-#include "study/run/pool.hpp"
-#include "study/run/session_record.hpp"
-#include "workflows/engine/cost_book.hpp"
+#include "study/run/locks.hpp"
 #include "workflows/engine/lock.hpp"
-#include "workflows/engine/program_version.hpp"
 #include "workflows/stages/stage_list.hpp"
 
 #include <algorithm>
-#include <array>
+#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <thread>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -33,7 +32,7 @@ namespace {
 constexpr int kRowsFailed = 1;
 
 struct StudyArguments {
-  std::string file, out;
+  std::string file, out, executor = "local";
   int jobs = 0, threads = 0;
   bool dry_run = false, quiet = false, json = false, retry = false;
   std::vector<std::string> allowed_programs;
@@ -59,31 +58,17 @@ void expect_allowed(const study::Plan& plan, const std::vector<std::string>& all
           plan.file.string(), program, program));
 }
 
-/// The same program again, with the job as its argument: it shows in the list of processes, and can
-/// be repeated by hand.
-int become_stage(const study::Job& job) {
-  std::string program = "flowslide", first = "study", second = "stage", text = to_text(job);
-  std::array<char*, 5> arguments{program.data(), first.data(), second.data(), text.data(), nullptr};
-  ::execv("/proc/self/exe", arguments.data());
-  throw FileError("the program cannot start itself (is /proc there?)");
-}
-
 int run_stage_of_study(const std::string& text) {
-  study::run_job_aloud(study::job_from(text), all_stages(), &stop_on_signal());
+  study::run_job_aloud(study::job_from(text), all_stages(), &stop_on_signal(Again::ignored));
   return 0;
 }
 
 study::PoolOptions pool_options(const StudyArguments& args) {
-  study::PoolOptions options;
-  options.threads = static_cast<std::size_t>(args.threads > 0 ? args.threads : processors());
+  study::PoolOptions options = usual_pool_options();
+  if (args.threads > 0) options.threads = static_cast<std::size_t>(args.threads);
   options.jobs = args.jobs > 0 ? static_cast<std::size_t>(args.jobs) : options.threads;
-  constexpr double kShare = 0.9;
-  options.memory = kShare * available_memory();
   options.retry = args.retry;
   options.allowed_programs = args.allowed_programs;
-  options.costs = usual_cost_file();
-  options.stop_requested = &stop_on_signal();
-  options.body = become_stage;
   return options;
 }
 
@@ -93,34 +78,41 @@ StudyOutput output_of(const StudyArguments& args) {
   return ::isatty(STDOUT_FILENO) == 1 ? StudyOutput::terminal : StudyOutput::lines;
 }
 
-study::SessionRecord this_session(const study::PoolOptions& options) {
-  return {.began = {},
-          .program = program_version(),
-          .processor = study::processor_name(),
-          .processors = static_cast<std::size_t>(processors()),
-          .jobs = options.jobs,
-          .threads = options.threads};
-}
-
-/// The same events, and what they cost so far.
-study::PoolEvents logged(study::PoolEvents events, study::SessionLog& log) {
-  events.ended = [tell = events.ended, &log](const study::StageEnd& end) {
-    if (end.state == study::State::done && !end.found) log.stage_made();
-    tell(end);
-  };
-  return events;
+/// One process at a time: two jobs of a cluster may be told to at once.
+study::Table write_results(const fs::path& folder, const study::Plan& plan,
+                           const study::StudyState& progress) {
+  study::Locks locks(folder);
+  while (!locks.take(sha256("table and report"))) {
+    if (stop_on_signal().load())
+      throw Interrupted("stopped; the table is being written elsewhere.");
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  study::Table table = make_table(plan, progress);
+  write_tables(folder, plan, table);
+  write_page(folder, plan, table, &stop_on_signal());
+  return table;
 }
 
 /// Exit code of a study as it was planned; nothing if a workflow was edited meanwhile.
-std::optional<int> run_plan(const StudyArguments& args, const study::Plan& plan) {
+std::optional<int> run_plan(const StudyArguments& args, const study::Plan& plan,
+                            const study::SlurmSettings& slurm) {
   expect_allowed(plan, args.allowed_programs);
   const fs::path folder = study_folder(args, plan);
   const study::Store store(folder);
   study::StudyState progress(plan, store);
   StudyDisplay display(plan, progress, output_of(args));
   display.begin(folder);
+  const bool local = args.executor == "local";
+  if (!local && submit_study(plan, store, progress,
+                             {.slurm = slurm,
+                              .dry_run = args.dry_run,
+                              .retry = args.retry,
+                              .allowed_programs = args.allowed_programs,
+                              .output = output_of(args)}))
+    return 0;
   if (args.dry_run) {
-    display.plan();
+    const study::PoolOptions pool = pool_options(args);
+    display.plan({plan, progress, pool.costs, 1}, pool.jobs);
     return 0;
   }
   make_folders(folder / "stages");
@@ -136,10 +128,7 @@ std::optional<int> run_plan(const StudyArguments& args, const study::Plan& plan)
   }
   display.close();
   if (end == study::PoolEnd::outdated) return std::nullopt;
-  const study::Table table = make_table(plan, progress);
-  write_tables(folder, plan, table);
-  write_page(folder, plan, table, &stop_on_signal());
-  display.end(folder, table);
+  display.end(folder, write_results(folder, plan, progress));
   const bool failed = std::any_of(plan.rows.begin(), plan.rows.end(), [&](const study::Row& row) {
     return progress.row_state(row) != study::State::done;
   });
@@ -147,12 +136,16 @@ std::optional<int> run_plan(const StudyArguments& args, const study::Plan& plan)
 }
 
 int run(const StudyArguments& args) {
+  validate(args.executor == "local" || (args.jobs == 0 && args.threads == 0),
+           "--jobs and --threads are for this machine (a task of Slurm has the processors that the "
+           "study file gives it). Write 'slurm: {{cpus: ...}}' there.");
   // A workflow that does not stay as it is for as long as it takes to plan is one that a program
   // writes over and over.
   constexpr int kMostPlans = 20;
   for (int i = 0; i < kMostPlans; ++i) {
-    const study::Plan plan = study::make_plan(study::read_study(args.file), all_stages());
-    if (const auto code = run_plan(args, plan)) return *code;
+    const study::StudyFile file = study::read_study(args.file);
+    if (const auto code = run_plan(args, study::make_plan(file, all_stages()), file.slurm))
+      return *code;
     fmt::print(stderr,
                "note: {}: a workflow, or a file that it names, has changed since the study was "
                "planned; it is planned again, and what did not change is kept\n",
@@ -180,6 +173,8 @@ int status(const StudyArguments& args) {
   const Opened study(args.out);
   StudyDisplay(study.plan, study.progress, args.json ? StudyOutput::json : StudyOutput::lines)
       .status(study.folder, study::bytes_of(study.folder / "stages"));
+  const std::string queue = args.json ? "" : queue_text(study.folder);
+  if (!queue.empty()) fmt::print("slurm: {}\n", queue);
   return 0;
 }
 
@@ -191,9 +186,7 @@ int table(const StudyArguments& args) {
 
 int report(const StudyArguments& args) {
   const Opened study(args.out);
-  const study::Table table = make_table(study.plan, study.progress);
-  write_tables(study.folder, study.plan, table);
-  write_page(study.folder, study.plan, table, &stop_on_signal());
+  write_results(study.folder, study.plan, study.progress);
   fmt::print("{}\n", (study.folder / "study.html").string());
   return 0;
 }
@@ -228,6 +221,8 @@ void add_study_run(CLI::App& study, Command& action) {
   command->add_option("--allow-python", args->allowed_programs, "interpreter to be allowed")
       ->take_all()
       ->allow_extra_args(false);
+  command->add_option("--executor", args->executor, "local, or slurm: send jobs [local]")
+      ->check(CLI::IsMember({"local", "slurm"}));
   command->add_flag("--retry", args->retry, "also what has failed for good before");
   command->add_flag("--dry-run", args->dry_run, "only tell what would run");
   command->add_flag("--quiet", args->quiet, "only tell what failed");
@@ -253,6 +248,15 @@ void add_study(CLI::App& app, Command& action) {
   const auto [clean_command, clean_args] =
       on_folder("clean", "Take away results that no row needs", clean);
   clean_command->add_flag("--dry-run", clean_args->dry_run, "only tell how much");
+
+  const auto part = std::make_shared<std::pair<std::string, std::size_t>>();
+  CLI::App* part_command =
+      study->add_subcommand("part", "Compute what a task of a job array is to compute");
+  part_command->add_option("file", part->first, "what the array is to compute, FILE.json")
+      ->required();
+  part_command->add_option("task", part->second, "number of the task, from 0")->required();
+  part_command->callback(
+      [part, &action] { action = [part] { return run_study_part(part->first, part->second); }; });
 
   // What `run` starts for each stage; of no use to people.
   const auto job = std::make_shared<std::string>();

@@ -1,6 +1,7 @@
 #include "cli/study_display.hpp"
 
 #include "cli/terminal.hpp"
+#include "study/batch/pack.hpp"
 #include "study/statistics/summary.hpp"
 
 #include <algorithm>
@@ -80,13 +81,27 @@ void StudyDisplay::begin(const std::filesystem::path& folder) {
   for (const std::string& line : failures()) print_wrapped(stderr, "failed before: ", line);
 }
 
-void StudyDisplay::plan() const {
-  std::map<std::string, std::pair<std::size_t, std::size_t>> kinds;  // of all, still to run
+void StudyDisplay::plan(const study::WorkCosts& costs, std::size_t jobs) const {
+  struct Kind {
+    std::size_t all = 0, open = 0;
+    double seconds = 0.0;
+  };
+  std::map<std::string, Kind> kinds;
+  Kind total;
+  std::vector<bool> open;
+  std::vector<double> seconds;
   for (std::size_t n = 0; n < plan_.nodes.size(); ++n) {
-    auto& [all, open] = kinds[plan_.nodes[n].stage.name];
-    ++all;
-    open += progress_.node(n).state != State::done;
+    open.push_back(progress_.node(n).state != State::done);
+    seconds.push_back(costs.seconds(n));
+    for (Kind* kind : {&kinds[plan_.nodes[n].stage.name], &total}) {
+      ++kind->all;
+      kind->open += open[n];
+      if (open[n] && is_set(seconds[n])) kind->seconds += seconds[n];
+    }
   }
+  // All of it as one task tells how long it lasts.
+  const auto one = study::pack(plan_, open, seconds, {.chunk = 1e300, .cpus = jobs});
+  const double lasts = one.empty() ? 0.0 : one[0].tasks[0].seconds;
   if (kind_ == StudyOutput::json) {
     Json rows = Json::array();
     for (const study::Row& row : plan_.rows)
@@ -96,11 +111,17 @@ void StudyDisplay::plan() const {
                       {"workflow", row.workflow.string()},
                       {"set", row.overrides},
                       {"state", name_of_state(progress_.row_state(row))}});
-    print_json({{"event", "plan"}, {"rows", rows}});
+    print_json({{"event", "plan"},
+                {"processor_seconds", total.seconds},
+                {"seconds", lasts},
+                {"rows", rows}});
     return;
   }
-  for (const auto& [stage, count] : kinds)
-    fmt::print("{:<8} {} to run of {}\n", stage, count.second, count.first);
+  for (const auto& [stage, kind] : kinds)
+    fmt::print("{:<8} {} to run of {}, {} of one processor\n", stage, kind.open, kind.all,
+               about_seconds(kind.seconds));
+  fmt::print("all      {} to run of {}, {} of one processor, {} with {} at once\n", total.open,
+             total.all, about_seconds(total.seconds), about_seconds(lasts), jobs);
   for (const study::Row& row : plan_.rows)
     fmt::print("row {:>4}  {:<8} {}\n", row.number, name_of_state(progress_.row_state(row)),
                harmless(row.label()));

@@ -1,5 +1,6 @@
 #pragma once
 #include "study/run/pool.hpp"
+#include "study/run/work_costs.hpp"
 #include "study/table/table.hpp"
 
 #include <chrono>
@@ -20,8 +21,8 @@ class StudyDisplay {
       : plan_(plan), progress_(progress), kind_(kind) {}
 
   void begin(const std::filesystem::path& folder);
-  /// What would run.
-  void plan() const;
+  /// What would run, so many stages at once.
+  void plan(const study::WorkCosts& costs, std::size_t jobs) const;
   [[nodiscard]] study::PoolEvents events();
   /// Takes the lines away that are redrawn.
   void close();

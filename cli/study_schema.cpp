@@ -106,6 +106,19 @@ Json repeat() {
                 {"count"})}}};
 }
 
+Json slurm() {
+  const Json name = {{"type", "string"}, {"pattern", "^[A-Za-z0-9_.,+@:][A-Za-z0-9_.,+@:-]*$"}};
+  return map({{"partition", name},
+              {"account", name},
+              {"cpus", count(1, "of a task: as many stages side by side")},
+              {"memory", text("4 GB (MB, GB, TB), of a task")},
+              {"time", text("4 h, limit of a task")},
+              {"chunk", text("30 min, that a task is expected to take at least")},
+              {"options", list_of({{"type", "string"},
+                                   {"pattern", "^-"},
+                                   {"description", "of sbatch, as in --qos=low"}})}});
+}
+
 Json part(Json more) {
   more["set"] = entries(kPath, kAny);
   more["vary"] = entries(kName, variable());
@@ -123,6 +136,7 @@ std::string study_schema() {
   body["keep"] = one_of(study::kKeeps, "what stays on the disk of each stage");
   body["disk"] = text("2 GB (MB, GB, TB)");
   body["limits"] = map({{"stage_time", text("2 h, of one stage")}});
+  body["slurm"] = slurm();
   body["analysis"] = map({{"results", one_or_list(text("column of the table"))},
                           {"thresholds", list_of(list_of(text("column of the table")))},
                           {"seed", count(0, "of the resampling")}});

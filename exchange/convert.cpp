@@ -14,7 +14,9 @@
 #include "model/particle_set.hpp"
 #include "model/section_mesh.hpp"
 #include "model/vtk_writer.hpp"
+#include "model/zone.hpp"
 #include "motion/write_motion.hpp"
+#include "report/tables.hpp"
 #include "section/boundary.hpp"
 
 #include <filesystem>
@@ -151,6 +153,11 @@ const std::vector<Conversion>& conversions() {
       {"fem_history", ".pvd", "history.h5", "NAME.pvd and NAME/*.vtu for ParaView", shaking_to_pvd},
       {"fem_history", "folder", "history.h5", "FOLDER/ with OpenSees text recorders",
        shaking_to_recorders},
+      {"zone", ".csv", "zone.h5", "NAME.csv, depths, energies and distortion over time",
+       [](const ConvertOptions& o) {
+         write_file(o.out, zone_csv(read_zone(o.in).history));
+         return Converted{};
+       }},
       {"mesh", ".vtu", "mesh.h5", "NAME.vtu for ParaView", mesh_to_vtu},
       {"mesh", "folder", "mesh.h5", "FOLDER/ with nodeinfo.dat and elementinfo.dat",
        mesh_to_tables},

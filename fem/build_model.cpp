@@ -15,6 +15,8 @@ Material make_material(const std::string& name, const FemMaterialConfig& c) {
   m.density = c.density;
   m.porosity = c.void_ratio / (1.0 + c.void_ratio);
   m.permeability = c.permeability;
+  if (c.permeability_rise)
+    m.permeability_rise = {c.permeability_rise->factor, c.permeability_rise->exponent};
   m.gravity_poisson = c.k0 / (1.0 + c.k0);
   m.drained = c.drained;
   return m;

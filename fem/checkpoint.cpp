@@ -8,7 +8,7 @@ namespace flowslide::fem {
 namespace {
 
 // Changes whenever the list of fields below changes.
-constexpr std::uint64_t kFields = 0x7368616b65637034;
+constexpr std::uint64_t kFields = 0x7368616b65637035;
 
 /// One list of fields for both directions: `Archive` writes or reads each. The forces carry the
 /// damping of the step that made them, so they belong to the state.
@@ -33,6 +33,8 @@ void transfer_fields(Archive& a, S& s, Run& run) {
   a.value(s.dt);
   a.array(s.lambda);
   a.array(s.shear);
+  a.array(s.water.mobility_x);
+  a.array(s.water.mobility_y);
   a.value(s.counters);
   a.array(s.entry_force);
 }

@@ -33,12 +33,20 @@ void check(const FemConfig& c) {
              i + 1, i);
 }
 
+void Schema<PermeabilityRiseConfig>::describe(FieldVisitor& v, PermeabilityRiseConfig& c) {
+  v.quantity("factor", c.factor, Dim::none, {.min = 1.0, .max = 100.0},
+             "permeability of liquefied soil over that at rest; 3 to 7 in back-analyses");
+  v.quantity("exponent", c.exponent, Dim::none, {.max = 20.0, .above = 0.0},
+             "1: in proportion to r_u; larger: near liquefaction only");
+}
+
 void Schema<FemMaterialConfig>::describe(FieldVisitor& v, FemMaterialConfig& c) {
   v.quantity("density", c.density, Dim::density, {.above = 0.0},
              "mass of grains and water in a volume");
   v.quantity("void_ratio", c.void_ratio, Dim::none, {.above = 0.0}, "void ratio e");
   v.tuple("permeability", c.permeability, Dim::velocity,
           "hydraulic conductivity, horizontal and vertical");
+  v.group("permeability_rise", c.permeability_rise, Schema<PermeabilityRiseConfig>::doc);
   v.quantity("k0", c.k0, Dim::none, {.min = 0.0, .below = 1.0},
              "horizontal over vertical effective stress of level ground");
   v.flag("drained", c.drained, "no pore pressure in this soil at any time");
@@ -93,6 +101,12 @@ void Schema<FemDampingConfig>::describe(FieldVisitor& v, FemDampingConfig& c) {
   v.quantity("mass", c.mass, Dim::none, {.min = 0.0}, "factor of the mass, in 1/s");
   v.quantity("stiffness", c.stiffness, Dim::time, {.min = 0.0},
              "factor of the present elastic stiffness of the soil");
+  v.group("like_newmark", c.like_newmark, Schema<LikeNewmarkConfig>::doc);
+}
+
+void Schema<LikeNewmarkConfig>::describe(FieldVisitor& v, LikeNewmarkConfig& c) {
+  v.quantity("gamma", c.gamma, Dim::none, {.min = 0.5, .max = 1.5}, "gamma of that program");
+  v.quantity("step", c.step, Dim::time, {.max = 0.1, .above = 0.0}, "time step of that program");
 }
 
 void Schema<StabilisationConfig>::describe(FieldVisitor& v, StabilisationConfig& c) {

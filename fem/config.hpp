@@ -12,10 +12,16 @@
 /// Settings of a dynamic finite-element run. docs/theory/fem.md
 namespace flowslide {
 
+struct PermeabilityRiseConfig {
+  double factor = kUnset;
+  double exponent = 1.0;
+};
+
 struct FemMaterialConfig {
   double density = kUnset;                             ///< saturated [kg/m3]
   double void_ratio = kUnset;                          ///< [-]
   std::array<double, 2> permeability{kUnset, kUnset};  ///< horizontal, vertical [m/s]
+  std::optional<PermeabilityRiseConfig> permeability_rise;
   double k0 = 0.5;
   bool drained = false;
   LawSettings<ShakingLaws> laws;
@@ -53,11 +59,18 @@ struct FemSideConfig {
   double thickness = 1000.0;  ///< of a free-field column out of the plane [m]
 };
 
+/// An implicit integration whose numerical damping is to be added.
+struct LikeNewmarkConfig {
+  double gamma = 5.0 / 6.0;
+  double step = 0.01;  ///< [s]
+};
+
 struct FemDampingConfig {
   double ratio = 0.02;
   std::array<double, 2> frequencies{0.6, 5.0};  ///< [Hz]
   std::optional<double> mass;                   ///< [-], 1/s
   std::optional<double> stiffness;              ///< [s]
+  std::optional<LikeNewmarkConfig> like_newmark;
 };
 
 struct StabilisationConfig {
@@ -100,6 +113,13 @@ struct FemConfig {
 void check(const FemConfig& c);
 
 template <>
+struct Schema<PermeabilityRiseConfig> {
+  static constexpr std::string_view doc =
+      "Permeability that grows with the excess pore-pressure ratio r_u, times 1 + (factor - 1) "
+      "r_u^exponent, as it does in sand that liquefies; left out: constant.";
+  static void describe(FieldVisitor& v, PermeabilityRiseConfig& c);
+};
+template <>
 struct Schema<FemMaterialConfig> {
   static constexpr std::string_view doc = "A soil; exactly one of the laws.";
   static void describe(FieldVisitor& v, FemMaterialConfig& c);
@@ -126,6 +146,13 @@ template <>
 struct Schema<FemSideConfig> {
   static constexpr std::string_view doc = "The vertical ends of the section.";
   static void describe(FieldVisitor& v, FemSideConfig& c);
+};
+template <>
+struct Schema<LikeNewmarkConfig> {
+  static constexpr std::string_view doc =
+      "Adds the damping that Newmark's method has of its own where gamma is above 1/2, to follow a "
+      "program that integrates with it: a stiffness factor (gamma - 1/2) step. No property of soil.";
+  static void describe(FieldVisitor& v, LikeNewmarkConfig& c);
 };
 template <>
 struct Schema<FemDampingConfig> {

@@ -13,6 +13,12 @@ namespace flowslide::fem {
 
 using Law = ShakingLaws::Variant<flowslide::Material>;
 
+/// How the permeability of a soil grows with its excess pore pressure.
+struct PermeabilityRise {
+  double factor = 1.0;  ///< at r_u = 1, over that at rest; 1: it does not grow
+  double exponent = 1.0;
+};
+
 struct Material {
   std::string name;
   Law law;
@@ -21,6 +27,7 @@ struct Material {
   std::array<double, 2> permeability{kUnset, kUnset};  ///< horizontal, vertical [m/s]
   double gravity_poisson = kUnset;                     ///< K_0/(1 + K_0) [-]
   bool drained = false;                                ///< no excess pore pressure in this soil
+  PermeabilityRise permeability_rise{};
 };
 
 struct Fluid {

@@ -12,7 +12,7 @@ struct PressureSystem {
   std::vector<std::int32_t> equation;  ///< of each node; number of equations where u is known
   std::int32_t num_equations = 0;
   Gather flow;                                 ///< equations from entries 4 e + i
-  std::vector<double> mobility_x, mobility_y;  ///< k/gamma_w of each element [m3 s/kg]
+  std::vector<double> mobility_x, mobility_y;  ///< present k/gamma_w of each element [m3 s/kg]
   std::vector<double> alpha;                   ///< of each element [m2/Pa]
   std::vector<double> storage;                 ///< of each equation [m3/Pa]
   BandFactor factor;

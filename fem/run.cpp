@@ -4,6 +4,7 @@
 #include "fem/checkpoint.hpp"
 #include "fem/gravity.hpp"
 #include "fem/implicit.hpp"
+#include "fem/permeability.hpp"
 #include "fem/run_states.hpp"
 #include "fem/time_step.hpp"
 #include "model/long_run.hpp"
@@ -57,9 +58,11 @@ void check_output(const FemConfig& config, double end, std::size_t nodes, std::s
 }
 
 Damping rayleigh(const FemDampingConfig& c) {
-  if (c.mass) return {*c.mass, *c.stiffness};
   const double w1 = 2.0 * kPi * c.frequencies[0], w2 = 2.0 * kPi * c.frequencies[1];
-  return {2.0 * c.ratio * w1 * w2 / (w1 + w2), 2.0 * c.ratio / (w1 + w2)};
+  Damping d{2.0 * c.ratio * w1 * w2 / (w1 + w2), 2.0 * c.ratio / (w1 + w2)};
+  if (c.mass) d = {*c.mass, *c.stiffness};
+  if (c.like_newmark) d.stiffness += (c.like_newmark->gamma - 0.5) * c.like_newmark->step;
+  return d;
 }
 
 /// Ground velocity: the acceleration integrated as the straight line between its samples.
@@ -115,6 +118,7 @@ class ExplicitSteps {
       choose(s, left);
       run.since = 1;
     }
+    refresh_permeability(s);
     fem::advance(s, {ground.at(s.state.time), ground.at(s.state.time + s.dt)});
   }
 
@@ -151,6 +155,7 @@ Stepper make_stepper(Solver& s, const FemConfig& config, const GroundMotion& mot
         s, ImplicitSettings{c.step, c.smallest_step, c.tolerance, c.max_iterations, c.theta});
     return [=, &progress](Solver& solver, RunState& run, double left) {
       refresh_moduli(solver);
+      refresh_permeability(solver);
       return steps->advance(
           solver, run.implicit, left, [&](double t) { return ground->at(t); }, progress);
     };
@@ -176,6 +181,7 @@ Solver make_section_at_rest(const SectionMesh& section, const FemConfig& config,
   refresh_moduli(s);
   set_stabilisation(s, config.stabilisation);
   if (config.stabilisation.hourglass_yields) let_hourglass_yield(s);
+  let_permeability_rise(s);
   if (auto note = drained_note(section, config, s)) facts.notes.push_back(std::move(*note));
   return s;
 }

@@ -82,6 +82,9 @@ struct Solver {
   std::vector<double> hourglass_shear;            ///< shear modulus of the hourglass stiffness [Pa]
   std::vector<ShearStrength> hourglass_strength;  ///< of each material; what it may carry
   std::vector<double> hourglass_rest;  ///< hourglass stress at rest, which stays admissible [Pa]
+  /// Pore pressure and vertical effective stress (compression positive) of each element at rest
+  /// [Pa]; empty where no permeability follows the pore pressure.
+  std::vector<double> rest_pressure, rest_weight;
 
   State state;
   double dt = kUnset;                 ///< present step [s]

@@ -3,9 +3,11 @@
 #include "core/check.hpp"
 #include "core/units.hpp"
 #include "importers/gmsh.hpp"
+#include "importers/mesh_edit.hpp"
 #include "importers/mesh_faults.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include <fmt/format.h>
@@ -25,6 +27,11 @@ void Schema<MeshImportConfig>::describe(FieldVisitor& v, MeshImportConfig& c) {
   v.group("tables", c.tables, "nodes and elements as text tables");
   v.text("length", c.length, "unit of the coordinates: m, mm, cm, km");
   v.table("materials", c.materials, "names of materials by their number in the file");
+  v.quantity("left", c.left, Dim::length, {},
+             "elements that reach beyond this x are left out, such as free-field columns");
+  v.quantity("right", c.right, Dim::length, {}, "the same at the other end");
+  v.integer("divide", c.divide, {.min = 0, .max = 4},
+            "how often each element is divided in four, which halves its size");
 }
 
 namespace {
@@ -66,6 +73,9 @@ void rename(SectionMesh& section, const std::map<std::string, NamedTag>& names) 
 void check(const MeshImportConfig& config) {
   validate(config.gmsh.has_value() != config.tables.has_value(),
            "{} of `gmsh` and `tables` (exactly one is the mesh)", config.gmsh ? "both" : "neither");
+  validate(!config.left || !config.right || *config.left < *config.right,
+           "left = {:g} m is not left of right = {:g} m (nothing lies between) exchange them?",
+           config.left.value_or(0.0), config.right.value_or(0.0));
   (void)unit_factor(config.length, Dim::length);
 }
 
@@ -74,6 +84,11 @@ SectionMesh import_mesh(const MeshImportConfig& config) {
   const double length = unit_factor(config.length, Dim::length);
   SectionMesh section =
       config.gmsh ? read_gmsh(config.gmsh->path, length) : from_tables(*config.tables, length);
+  if (config.left || config.right) {
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    keep_between(section, config.left.value_or(-kFar), config.right.value_or(kFar));
+  }
+  for (int i = 0; i < config.divide; ++i) divide_in_four(section);
   rename(section, config.materials);
   check(section);
   return section;

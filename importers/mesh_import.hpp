@@ -19,6 +19,8 @@ struct MeshImportConfig {
   std::optional<MeshTextConfig> tables;
   std::string length = "m";                   ///< unit of the coordinates
   std::map<std::string, NamedTag> materials;  ///< names for material tags of the file
+  std::optional<double> left, right;          ///< x between which elements are kept [m]
+  int divide = 0;                             ///< times that each element is divided in four
 };
 
 /// Exactly one source, a known unit. Throws InputError.

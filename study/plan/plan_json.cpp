@@ -48,6 +48,9 @@ std::vector<Port> ports_from(const Json& json) {
   return ports;
 }
 
+Json number_json(double x) { return is_set(x) ? Json(x) : Json(nullptr); }
+double number_from(const Json& json) { return json.is_null() ? kUnset : json.get<double>(); }
+
 Json node_json(const Node& node) {
   const WorkflowStage& stage = node.stage;
   Json links = Json::array();
@@ -64,6 +67,8 @@ Json node_json(const Node& node) {
           {"settings", stage.prepared.settings},
           {"links", links},
           {"warnings", stage.warnings},
+          {"work",
+           {number_json(stage.work.seconds), stage.work.parallel, number_json(stage.work.memory)}},
           {"before", node.before},
           {"recipe", node.recipe},
           {"row", node.row}};
@@ -87,6 +92,10 @@ Node node_from(const Json& json) {
     validate(stage.inputs.back().from_stage < node.before.size(), "a link leads nowhere");
   }
   stage.warnings = json.at("warnings").get<std::vector<std::string>>();
+  if (const auto work = json.find("work"); work != json.end())
+    stage.work = {.seconds = number_from(work->at(0)),
+                  .parallel = work->at(1),
+                  .memory = number_from(work->at(2))};
   node.recipe = json.at("recipe");
   validate(is_name(stage.name), "'{}' is no name of a stage", stage.name);
   validate(is_digest(node.recipe), "'{}' is no digest", node.recipe);

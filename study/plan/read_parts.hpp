@@ -10,6 +10,7 @@ void read_set(const YamlNode& node, Part& part);
 std::vector<Variable> read_vary(const YamlNode& node);
 Sample read_sample(const YamlNode& node);
 Repeat read_repeat(const YamlNode& node);
+SlurmSettings read_slurm(const YamlNode& node);
 
 /// The place as it stands in messages.
 std::string place_of(const YamlNode& node);

@@ -1,5 +1,4 @@
 #include "core/files.hpp"
-#include "core/units.hpp"
 #include "study/plan/read_parts.hpp"
 #include "study/plan/yaml_read.hpp"
 #include "workflows/engine/names.hpp"
@@ -12,8 +11,8 @@
 namespace flowslide::study {
 namespace {
 
-const std::vector<std::string> kStudyKeys{"workflow", "set",  "vary", "sample", "repeat",
-                                          "also",     "keep", "disk", "limits", "analysis"};
+const std::vector<std::string> kStudyKeys{"workflow", "set",  "vary",   "sample", "repeat",  "also",
+                                          "keep",     "disk", "limits", "slurm",  "analysis"};
 
 /// Each name stands for one column of the table.
 void expect_names(const Part& part, const YamlNode& node) {
@@ -98,28 +97,9 @@ void read_parts(StudyFile& study, const YamlNode& node) {
   }
 }
 
-double read_bytes(const YamlNode& node) {
-  const Amount amount = read_amount(node);
-  const double factor = amount.unit == "MB"   ? 1e6
-                        : amount.unit == "GB" ? 1e9
-                        : amount.unit == "TB" ? 1e12
-                                              : kUnset;
-  if (!(amount.value * factor > 0.0))
-    throw node.error(
-        fmt::format("'{}' is no size. Write it as in 2 GB (MB, GB, TB).", node.scalar()));
-  return amount.value * factor;
-}
-
 void read_limits(StudyFile& study, const YamlNode& node) {
   allow_keys(node, {"stage_time"});
-  if (const auto time = node.find("stage_time")) {
-    try {
-      study.limits.stage_seconds = parse_quantity(time->scalar(), Dim::time);
-    } catch (const InputError& e) {
-      throw time->error(e.what());
-    }
-    if (!(study.limits.stage_seconds > 0.0)) throw time->error("is no time. Give one above 0.");
-  }
+  if (const auto time = node.find("stage_time")) study.limits.stage_seconds = read_time(*time);
 }
 
 void read_analysis(StudyFile& study, const YamlNode& node) {
@@ -177,6 +157,7 @@ StudyFile read_study(const std::filesystem::path& path) {
   }
   if (const auto disk = node.find("disk")) study.disk_bytes = read_bytes(*disk);
   if (const auto limits = node.find("limits")) read_limits(study, *limits);
+  if (const auto slurm = node.find("slurm")) study.slurm = read_slurm(*slurm);
   if (const auto analysis = node.find("analysis")) read_analysis(study, *analysis);
   return study;
 }

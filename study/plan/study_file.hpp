@@ -77,6 +77,17 @@ struct Limits {
   double stage_seconds = 24.0 * 3600.0;  ///< of one stage in one session [s]
 };
 
+/// What tasks of a cluster ask Slurm for. What is empty or unset is left to the cluster, or follows
+/// from what the stages are expected to take.
+struct SlurmSettings {
+  std::string partition, account;
+  std::size_t cpus = 1;              ///< of a task: as many stages side by side
+  double memory = kUnset;            ///< of a task [bytes]
+  double time = kUnset;              ///< limit of a task [s]
+  double chunk = 1800.0;             ///< that a task is expected to take at least [s]
+  std::vector<std::string> options;  ///< further ones of sbatch, "--qos=low"
+};
+
 struct Analysis {
   std::vector<std::string> results;  ///< columns; empty: those that are there of the usual ones
   std::vector<std::pair<std::string, std::string>> thresholds;  ///< (x, y) columns
@@ -90,6 +101,7 @@ struct StudyFile {
   Keep keep = Keep::final;
   double disk_bytes = 2e9;
   Limits limits;
+  SlurmSettings slurm;
   Analysis analysis;
 };
 

@@ -1,5 +1,7 @@
 #include "study/plan/yaml_read.hpp"
 
+#include "core/units.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -77,6 +79,29 @@ std::size_t read_count(const YamlNode& node, std::size_t least, std::size_t most
     throw node.error(
         fmt::format("'{}' is no whole number from {} to {}. Give one.", text, least, most));
   return count;
+}
+
+double read_bytes(const YamlNode& node) {
+  const Amount amount = read_amount(node);
+  const double factor = amount.unit == "MB"   ? 1e6
+                        : amount.unit == "GB" ? 1e9
+                        : amount.unit == "TB" ? 1e12
+                                              : kUnset;
+  if (!(amount.value * factor > 0.0))
+    throw node.error(
+        fmt::format("'{}' is no size. Write it as in 2 GB (MB, GB, TB).", node.scalar()));
+  return amount.value * factor;
+}
+
+double read_time(const YamlNode& node) {
+  double seconds = kUnset;
+  try {
+    seconds = parse_quantity(node.scalar(), Dim::time);
+  } catch (const InputError& e) {
+    throw node.error(e.what());
+  }
+  if (!(seconds > 0.0)) throw node.error("is no time. Give one above 0.");
+  return seconds;
 }
 
 std::vector<std::string> read_texts(const YamlNode& node) {

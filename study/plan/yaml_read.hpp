@@ -15,6 +15,9 @@ Amount read_amount(const YamlNode& node);
 /// A number without a unit.
 double read_number(const YamlNode& node);
 std::size_t read_count(const YamlNode& node, std::size_t least, std::size_t most);
+/// "2 GB" [bytes], "30 min" [s]; above 0.
+double read_bytes(const YamlNode& node);
+double read_time(const YamlNode& node);
 /// A list of texts, or one text.
 std::vector<std::string> read_texts(const YamlNode& node);
 /// "stages." and what follows.

@@ -117,7 +117,7 @@ class Pool {
       } else if (!outdated_) {
         launch();
       }
-      if (running_.empty() && !is_work_left()) return PoolEnd::done;
+      if (running_.empty() && !is_work_left() && !may_still_come()) return PoolEnd::done;
       wait();
       for (auto r = running_.begin(); r != running_.end();) {
         listen(*r);
@@ -142,20 +142,37 @@ class Pool {
   [[nodiscard]] const std::string& stage(std::size_t node) const {
     return plan_.nodes[node].stage.name;
   }
+  /// Of ours, or asked for by one of ours because its files have gone.
+  [[nodiscard]] bool is_wanted(std::size_t n) const {
+    const NodeState& node = progress_.node(n);
+    return (node.state == State::ready && (options_.only.empty() || options_.only[n])) ||
+           (node.state == State::done && node.again);
+  }
   [[nodiscard]] bool is_work_left() const {
-    return std::any_of(progress_.nodes().begin(), progress_.nodes().end(), [](const NodeState& n) {
-      return n.state == State::ready || (n.state == State::done && n.again);
-    });
+    for (std::size_t n = 0; n < plan_.nodes.size(); ++n)
+      if (is_wanted(n)) return true;
+    return false;
+  }
+
+  /// Looks again for what ours wait for and others should have made.
+  bool may_still_come() {
+    bool waits = false;
+    for (std::size_t n = 0; n < options_.only.size(); ++n)
+      waits |= options_.only[n] && progress_.node(n).state == State::waiting;
+    if (!waits) return false;
+    if (idle_since_ == Clock::time_point{}) idle_since_ = Clock::now();
+    if (seconds_since(idle_since_) > options_.patience) return false;
+    for (std::size_t n = 0; n < options_.only.size(); ++n)
+      if (!options_.only[n] && progress_.node(n).state == State::ready) (void)progress_.is_open(n);
+    progress_.resolve();
+    return true;
   }
 
   /// To be run now: later stages before earlier ones, so that rows are finished one by one.
   [[nodiscard]] std::vector<std::size_t> candidates() const {
     std::vector<std::size_t> result;
-    for (std::size_t n = 0; n < plan_.nodes.size(); ++n) {
-      const NodeState& node = progress_.node(n);
-      const bool wanted = node.state == State::ready || (node.state == State::done && node.again);
-      if (wanted && Clock::now() >= not_before_[n]) result.push_back(n);
-    }
+    for (std::size_t n = 0; n < plan_.nodes.size(); ++n)
+      if (is_wanted(n) && Clock::now() >= not_before_[n]) result.push_back(n);
     std::stable_sort(result.begin(), result.end(), [&](std::size_t a, std::size_t b) {
       return plan_.nodes[a].before.size() > plan_.nodes[b].before.size();
     });
@@ -243,6 +260,7 @@ class Pool {
                         .end = {},
                         .damaged = {}});
     progress_.node(n).state = State::running;
+    idle_since_ = {};
   }
 
   void wait() {
@@ -389,7 +407,8 @@ class Pool {
   const PoolEvents& events_;
   Locks locks_;
   Tidier tidier_;
-  bool outdated_ = false;  ///< a stage found its workflow to be another one
+  Clock::time_point idle_since_ = {};  ///< ours wait, and nothing runs
+  bool outdated_ = false;              ///< a stage found its workflow to be another one
   WorkCosts costs_;
   std::list<Running> running_;
   std::vector<int> damages_;                   ///< how often a result was found damaged

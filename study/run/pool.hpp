@@ -15,6 +15,11 @@ struct PoolOptions {
   std::size_t threads = 1;  ///< of all of them together
   double memory = 1e9;      ///< for all of them together [bytes]
   bool retry = false;       ///< also what failed for good before
+  /// Nodes to be computed, the others are somebody else's; empty: all.
+  std::vector<bool> only = {};
+  /// How long what others have made may take to be seen: file systems that machines share do not
+  /// show everything at once [s].
+  double patience = 0.0;
   std::vector<std::string> allowed_programs;
   std::filesystem::path costs = {};  ///< what stages took on this machine, as for CostBook
   const std::atomic<bool>* stop_requested = nullptr;

@@ -2,6 +2,7 @@
 
 #include "core/check.hpp"
 #include "core/files.hpp"
+#include "workflows/engine/cost_book.hpp"
 #include "workflows/engine/sealed_json.hpp"
 
 #include <algorithm>
@@ -52,14 +53,17 @@ std::string utc_now() {
   return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts)};
 }
 
-/// Takes away what killed sessions of this machine were writing: ".BEGAN-PROCESS.json.....partial".
+/// Takes away what killed sessions of this machine were writing:
+/// ".BEGAN-MACHINE-PROCESS.json.....partial".
 void remove_leftovers(const fs::path& sessions) {
   std::vector<fs::path> left;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(sessions, error)) {
     const std::string name = entry.path().filename().string();
     const std::size_t dash = name.rfind('-', name.find(".json."));
-    if (!name.ends_with(".partial") || dash == std::string::npos) continue;
+    if (!name.ends_with(".partial") || dash == std::string::npos ||
+        !name.substr(0, dash).ends_with("-" + machine_name()))
+      continue;
     const int process = std::atoi(name.c_str() + dash + 1);
     if (process > 0 && ::kill(process, 0) != 0 && errno == ESRCH) left.push_back(entry.path());
   }
@@ -83,7 +87,8 @@ SessionRecord from(const Json& j) {
 SessionLog::SessionLog(const fs::path& folder, SessionRecord what)
     : record_(std::move(what)), began_(clock_seconds()), used_before_(processor_time()) {
   record_.began = utc_now();
-  path_ = folder / kFolder / fmt::format("{}-{}.json", record_.began, ::getpid());
+  path_ =
+      folder / kFolder / fmt::format("{}-{}-{}.json", record_.began, machine_name(), ::getpid());
   remove_leftovers(path_.parent_path());
 }
 

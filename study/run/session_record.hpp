@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-/// What a study cost and where it ran: DIR/sessions/BEGAN-PID.json, one for each `study run` that
-/// computed something, so that two at once do not write the same file.
+/// What a study cost and where it ran: DIR/sessions/BEGAN-MACHINE-PID.json, one for each `study
+/// run` that computed something, so that two at once do not write the same file.
 namespace flowslide::study {
 
 struct SessionRecord {

@@ -22,6 +22,11 @@ void write_study(const Scratch& scratch, const std::string& more_values = "",
                     more_values + "]\n      labels: [mean, elastic" + more_labels + "]\n");
 }
 
+std::string line_with(const std::string& text, const std::string& word) {
+  const std::size_t at = text.find("\"" + word + "\""), begin = text.rfind('\n', at) + 1;
+  return text.substr(begin, text.find('\n', at) - begin);
+}
+
 std::size_t lines_of(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
@@ -31,7 +36,18 @@ std::size_t lines_of(const std::string& text) {
 TEST_CASE("a study runs, is then done, and tells of itself", "[cli]") {
   const Scratch scratch;
   write_study(scratch);
-  CHECK_THAT(call(scratch, "study run s.yaml --dry-run").out, Contains("2 to run of 2"));
+  CHECK_THAT(call(scratch, "study run s.yaml --dry-run").out,
+             Contains("shake    2 to run of 2, ") && Contains("all      2 to run of 2, "));
+  // One after the other they last as long as they take, side by side as long as one of them.
+  const auto expected = [&](const char* jobs) {
+    return nlohmann::json::parse(line_with(
+        call(scratch, std::string("study run s.yaml --dry-run --json --jobs ") + jobs).out,
+        "plan"));
+  };
+  const auto one = expected("1"), two = expected("2");
+  CHECK(one["processor_seconds"] > 0.0);
+  CHECK(one["seconds"].get<double>() == Approx(one["processor_seconds"].get<double>()));
+  CHECK(two["seconds"].get<double>() == Approx(0.5 * one["seconds"].get<double>()));
   CHECK_FALSE(std::filesystem::exists(scratch / "runs"));
   Outcome o = call(scratch, "study run s.yaml --jobs 2");
   INFO(o.err);
@@ -136,7 +152,7 @@ TEST_CASE("on a terminal a study draws its running stages and a total", "[cli]")
 
 TEST_CASE("the help of studies fits 80 columns", "[cli]") {
   const Scratch scratch;
-  for (const char* command : {"", "run ", "status ", "table ", "report ", "clean "}) {
+  for (const char* command : {"", "run ", "status ", "table ", "report ", "clean ", "part "}) {
     const Outcome o = call(scratch, std::string("study ") + command + "--help");
     REQUIRE(o.code == 0);
     std::istringstream in(o.out);

@@ -88,6 +88,8 @@ const std::vector<std::string> kGood{
     R"("repeat": 3)",
     R"("repeat": {"count": 3, "motion": 1e-6, "grid": true, "scale": {"stages.a.with.b": 1e-6}, "rows": {"f": [1]}})",
     R"("also": {"static": {"workflow": "v.yaml", "vary": {}, "repeat": 2}}, "keep": "numbers", "disk": "2 GB")",
+    R"("slurm": {"partition": "day,night", "account": "geo", "cpus": 4, "memory": "4 GB", "time": "4 h",
+       "chunk": "30 min", "options": ["--qos=low"]})",
     R"("limits": {"stage_time": "2 h"}, "analysis": {"results": ["a"], "thresholds": [["a", "b"]], "seed": 1})"};
 
 const std::vector<std::string> kBad{
@@ -101,6 +103,11 @@ const std::vector<std::string> kBad{
     R"("repeat": "often")",
     R"("repeat": {"grid": true})",
     R"("keep": "everything")",
+    R"("slurm": {"queue": "day"})",
+    R"("slurm": {"partition": "day\n#SBATCH --wrap=x"})",
+    R"("slurm": {"cpus": 0})",
+    R"("slurm": {"options": "--qos=low"})",
+    R"("slurm": {"options": ["qos=low"]})",
     R"("analysis": {"results": {}})"};
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "exchange/convert.hpp"
 #include "exchange/inspect.hpp"
 #include "model/history.hpp"
+#include "model/zone.hpp"
 #include "tests/support/materials.hpp"
 #include "tests/support/scratch.hpp"
 
@@ -76,4 +77,24 @@ TEST_CASE("a conversion is chosen by both ends") {
                     Contains("no conversion") && Contains("history.h5 -> NAME.pvd"));
   convert({(scratch / "h.h5").string(), (scratch / "h.pvd").string(), {}});
   CHECK(std::filesystem::exists(scratch / "h/h_0000.vtu"));
+}
+
+TEST_CASE("a zone becomes the table of its depths over time") {
+  const Scratch scratch;
+  LiquefactionZone zone;
+  zone.window_names = zone.history.window_names = {"crest"};
+  for (std::vector<double>* of :
+       {&zone.window_depth_max, &zone.window_depth_any, &zone.window_depth_interpolated,
+        &zone.window_depth_strong, &zone.window_depth_before_slide})
+    *of = {2.5};
+  ZoneHistory& h = zone.history;
+  h.time = {0.25, 0.5};
+  h.depth = h.depth_max = h.depth_any = {{0.0, 2.5}};
+  h.depth_interpolated = {{0.0, 3.25}};
+  h.kinetic_energy = h.kinetic_energy_relative = h.sliding_energy = {1.0, 2.0};
+  h.distortion_gauss = h.distortion_centre = {1.0, 1.0};
+  write_zone(scratch / "zone.h5", zone);
+  convert({(scratch / "zone.h5").string(), (scratch / "zone.csv").string(), {}});
+  CHECK_THAT(read_text_file(scratch / "zone.csv"),
+             Contains("depth_interpolated_crest_m") && Contains("\n0.5,2.5,2.5,2.5,3.25,"));
 }

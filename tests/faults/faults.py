@@ -53,7 +53,9 @@ class Program:
 
     def __init__(self, program, shim):
         # No home: what one run learns of its cost would give the next one other calls.
+        doubles = os.path.join(os.path.dirname(os.path.abspath(__file__)), "doubles")
         environment = dict(os.environ, LD_PRELOAD=shim, GOMP_SPINCOUNT="1000", LC_ALL="C",
+                           PATH=f"{doubles}:{os.environ['PATH']}",
                            SOURCE_DATE_EPOCH="0", HOME="", XDG_CACHE_HOME="")
         self.process = subprocess.Popen([program], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                                         env=environment, text=True)

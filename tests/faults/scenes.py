@@ -225,6 +225,9 @@ def scenes():
     result.append(Scene("study, all done", study, [study], codes=(1,)))
     result.append(Scene("study report", ["study", "report", "ROOT/out"], [study]))
     result.append(Scene("stage of a study", [], [study], stage="zone"))
+    sent = ["study", "run", "ROOT/in/study.yaml", "--out", "ROOT/out", "--quiet", "--executor", "slurm"]
+    result.append(Scene("task of a study", ["study", "part", "ROOT/out/slurm/1/rows.json", "0"], [sent],
+                        codes=(1,)))
     result.append(Scene("study clean", ["study", "clean", "ROOT/out"],
                         [[w.replace("study.yaml", "more.yaml") for w in study], study]))
     result.append(Scene("plot", ["plot", "ROOT/in/shake.yaml", "--out", "ROOT/made/section.svg",

@@ -40,6 +40,7 @@ struct Scene {
     mc.residual_friction_angle = 0.2;
     mc.residual_strain = 0.01;
     settings.materials["crust"].laws.of<MohrCoulomb>() = mc;
+    settings.materials["soil"].permeability_rise = PermeabilityRiseConfig{4.0, 2.0};
     settings.base = {BaseMotionKind::outcrop, 400.0, 2000.0, true};
     settings.sides.kind = SideKind::free_field;
     settings.damping.mass = 0.1;

@@ -44,6 +44,23 @@ TEST_CASE("A run writes a history that starts at rest and follows the ground", "
   CHECK(h.frame(3).displacement[1][1] == 0.0);
 }
 
+TEST_CASE("The damping of Newmark's method comes on top of the soil's", "[fem]") {
+  const SectionMesh s = section({.columns = 2, .rows = 4});
+  FemConfig c = config(sand(), 4.0);
+  const Scratch folder;
+  const auto last = [&](const std::string& name) {
+    run_fem(s, sine(1.0, 0.5), c, in(folder, name), 1, {});
+    return FemHistory(folder / (name + ".h5")).frame(1).displacement;
+  };
+  c.damping.stiffness = 1e-3;
+  const auto soil = last("soil");
+  c.damping.like_newmark = LikeNewmarkConfig{.gamma = 0.75, .step = 4e-3};
+  const auto both = last("both");
+  c.damping = {.mass = 0.0, .stiffness = 1e-3 + 0.25 * 4e-3, .like_newmark = {}};
+  CHECK(both == last("factor"));
+  CHECK(both != soil);
+}
+
 TEST_CASE("Free-field columns are not in the history", "[fem]") {
   const SectionMesh s = section({.columns = 2, .rows = 4});
   FemConfig c = config(sand(), 4.0);

@@ -1,4 +1,6 @@
 #include "core/hash.hpp"
+#include "study/batch/part.hpp"
+#include "study/batch/slurm.hpp"
 #include "study/page/page.hpp"
 #include "study/plan/rows.hpp"
 #include "study/run/study_state.hpp"
@@ -41,6 +43,21 @@ void study_plan(Input input) {
     study::write_plan(folder().path(), plan);
     if (to_json(study::read_plan(folder().path())) != to_json(plan)) std::abort();
   });
+}
+
+void job_array(Input input) {
+  Parts parts(input);
+  const std::string text(parts.section());
+  const auto path = file("rows.json", text + ",\n  \"sha256\": \"" + sha256(text) + "\"\n}\n");
+  accepts([&] {
+    const study::ArrayRecord record = study::read_array(path);
+    const study::Plan plan;
+    for (std::size_t task = 0; task < record.tasks.size(); ++task)
+      (void)study::nodes_of_task(plan, record, task);
+    study::write_array(path, record);
+    if (study::read_array(path).tasks != record.tasks) std::abort();
+  });
+  (void)study::queued_tasks(parts.rest());
 }
 
 }  // namespace flowslide::fuzz

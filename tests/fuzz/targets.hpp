@@ -22,6 +22,7 @@ void run_lock(Input);      ///< run.lock
 void stage_record(Input);  ///< stage.json, facts.json, audit.json
 void study(Input);         ///< a study file and a table that it names
 void study_plan(Input);    ///< study.json
+void job_array(Input);     ///< what a job array is to compute, and what squeue says
 void checkpoint(Input);    ///< changes of good checkpoints, with the checksum made anew
 
 struct Target {
@@ -41,6 +42,7 @@ inline constexpr std::array kTargets{Target{"workflow", workflow},
                                      Target{"stage_record", stage_record},
                                      Target{"checkpoint", checkpoint},
                                      Target{"study", study},
-                                     Target{"study_plan", study_plan}};
+                                     Target{"study_plan", study_plan},
+                                     Target{"job_array", job_array}};
 
 }  // namespace flowslide::fuzz

@@ -225,3 +225,49 @@ TEST_CASE("Mistakes in a study file are named with their place", "[study]") {
   bench.scratch.write("w.yaml", std::string(kWorkflow));
   CHECK_THROWS_WITH(read_study(bench.scratch / "w.yaml"), Contains("is a workflow"));
 }
+
+TEST_CASE("What is asked of Slurm is read, and nothing that a script could take for a command",
+          "[study]") {
+  const StudyBench bench;
+  const auto read = [&](const std::string& slurm) {
+    return read_study(bench.scratch.write("study.yaml",
+                                          "schema: 1\nname: demo\nstudy:\n"
+                                          "  workflow: base.yaml\n  slurm: " +
+                                              slurm + "\n"))
+        .slurm;
+  };
+  const SlurmSettings all = read(
+      "{partition: 'day,night', account: geo-2, cpus: 8, memory: 4 GB, time: 4 h, chunk: 1 h, "
+      "options: [--qos=low, -v]}");
+  CHECK(all.partition == "day,night");
+  CHECK(all.account == "geo-2");
+  CHECK(all.cpus == 8);
+  CHECK(all.memory == 4e9);
+  CHECK(all.time == 14400.0);
+  CHECK(all.chunk == 3600.0);
+  CHECK(all.options == std::vector<std::string>{"--qos=low", "-v"});
+  CHECK(read("{}").chunk == 1800.0);
+  CHECK_FALSE(is_set(read("{}").time));
+  CHECK(read("{time: 20 min}").chunk == 600.0);  // a task must fit in its time
+
+  const auto refused = [&](const std::string& slurm) {
+    try {
+      (void)read(slurm);
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  CHECK_THAT(refused("{partition: \"day\\nrm -rf x\"}"), Contains("control character"));
+  CHECK_THAT(refused("{partition: $(x)}"),
+             Contains("study.yaml:5:") && Contains("no name of Slurm"));
+  CHECK_THAT(refused("{account: --wrap}"), Contains("no name of Slurm"));
+  CHECK_THAT(refused("{time: 10 s}"), Contains("at least 1 min"));
+  CHECK_THAT(refused("{time: 1 h, chunk: 45 min}"), Contains("more than half of 'time'"));
+  CHECK_THAT(refused("{options: [qos]}"), Contains("no option of sbatch"));
+  CHECK_THAT(refused("{options: [--qos low]}"), Contains("taken for one word"));
+  CHECK_THAT(refused("{options: [--array=0-9]}"), Contains("set by the program"));
+  CHECK_THAT(refused("{options: [-p night]}"), Contains("'partition: ...'"));
+  CHECK_THAT(refused("{options: [\"--comment=a\\nb\"]}"), Contains("control character"));
+  CHECK_THAT(refused("{queue: day}"), Contains("unknown key 'queue'"));
+}

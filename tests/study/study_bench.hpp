@@ -35,6 +35,8 @@ struct StudyBench {
   std::vector<StageType> types = flowslide::sample::stages();
   std::size_t jobs = 2;
   bool retry = false;
+  std::vector<bool> only = {};
+  double patience = 0.0;
   std::filesystem::path costs = {};
   const std::atomic<bool>* stop = nullptr;
   std::function<void(const Job&)> before = [](const Job&) {};  ///< in the process of the stage
@@ -62,6 +64,8 @@ struct StudyBench {
                         .threads = jobs,
                         .memory = 1e12,
                         .retry = retry,
+                        .only = only,
+                        .patience = patience,
                         .allowed_programs = {},
                         .costs = costs,
                         .stop_requested = stop,

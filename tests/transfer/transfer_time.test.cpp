@@ -70,6 +70,19 @@ TEST_CASE("trailing means reach back by their length and never forward", "[trans
   CHECK(trailing_mean(time, value, 0.0) == value);
 }
 
+TEST_CASE("an onset is where the energy leaves its envelope, not where it has outgrown it",
+          "[transfer]") {
+  // the envelope is 5 J/m; the slide, 20 J/m per second from 13 s on, passes it and its double
+  const Record record(13.0);
+  const std::optional<EnergyOnset> onset = find_onset({}, record.h, record.base);
+  REQUIRE(onset);
+  CHECK(record.h.time[onset->begin] == Approx(13.25).margin(0.15));
+  CHECK(record.h.time[onset->grown] == Approx(13.5).margin(0.15));
+  CHECK_THAT(
+      record.choose().reason,
+      Catch::Contains("leaves its pre-failure envelope at 13.3 s and exceeds 2 times it from"));
+}
+
 TEST_CASE("shaking alone is no failure, however strong it becomes after first liquefaction",
           "[transfer]") {
   const Record record(1e9, 1e9);
@@ -89,8 +102,8 @@ TEST_CASE("the onset lies soon after the slide begins", "[transfer]") {
     REQUIRE(onset);
     // The envelope is at most 15 J/m, the slide has 20 J/m/s: twice the envelope is passed within
     // 2 s, the trailing mean of 1 s included.
-    CHECK(record.h.time[onset->sample] > 11.0);
-    CHECK(record.h.time[onset->sample] <= 13.0);
+    CHECK(record.h.time[onset->grown] > 11.0);
+    CHECK(record.h.time[onset->grown] <= 13.0);
     CHECK(onset->energy > 2.0 * onset->envelope);
   }
 }
@@ -101,7 +114,7 @@ TEST_CASE("a record that ends in the rise says so", "[transfer]") {
   CHECK_FALSE(find_onset({}, record.h, record.base));
   const auto rising = rising_at_end({}, record.h, record.base);
   REQUIRE(rising);
-  CHECK(record.h.time[rising->sample] > 28.0);
+  CHECK(record.h.time[rising->grown] > 28.0);
   const TransferChoice choice = record.choose();
   CHECK(choice.frame == 300);
   CHECK_THAT(choice.reason, Catch::Contains("to the end of the record, too short a time") &&
@@ -123,7 +136,7 @@ TEST_CASE("without liquefaction there is no failure", "[transfer]") {
 
 TEST_CASE("the transfer lies halfway from full development to excessive distortion", "[transfer]") {
   const Record record(11.0);
-  const double onset = record.h.time[find_onset({}, record.h, record.base)->sample];
+  const double onset = record.h.time[find_onset({}, record.h, record.base)->grown];
   const TransferChoice choice = record.choose();
   // Q < 0.97 from 15.1 s on (15.0 s holds 0.97 up to rounding).
   CHECK(choice.time == Approx(0.5 * (onset + 15.05)).margin(0.11));

@@ -64,6 +64,12 @@ EnergyLevels energy_levels(const AutomaticTransfer& rule, const ZoneHistory& h,
   return r;
 }
 
+EnergyOnset onset_of(const EnergyLevels& x, std::size_t grown) {
+  std::size_t begin = grown;
+  while (begin > x.liquefied && x.energy[begin - 1] > x.envelope[begin - 1]) --begin;
+  return {begin, grown, x.energy[grown], x.envelope[grown]};
+}
+
 }  // namespace
 
 std::optional<EnergyOnset> find_onset(const AutomaticTransfer& rule, const ZoneHistory& h,
@@ -77,8 +83,7 @@ std::optional<EnergyOnset> find_onset(const AutomaticTransfer& rule, const ZoneH
     if (h.time[i] + hold > h.time[n - 1]) break;
     std::size_t k = i;
     while (k < n && above(k) && h.time[k] < h.time[i] + hold) ++k;
-    if (k < n && above(k) && x.energy[k] > x.energy[i])
-      return EnergyOnset{i, x.energy[i], x.envelope[i]};
+    if (k < n && above(k) && x.energy[k] > x.energy[i]) return onset_of(x, i);
   }
   return std::nullopt;
 }
@@ -90,7 +95,7 @@ std::optional<EnergyOnset> rising_at_end(const AutomaticTransfer& rule, const Zo
   std::size_t first = n;
   while (first > x.liquefied && x.energy[first - 1] > rule.growth * x.envelope[first - 1]) --first;
   if (first == n) return std::nullopt;
-  return EnergyOnset{first, x.energy[first], x.envelope[first]};
+  return onset_of(x, first);
 }
 
 }  // namespace flowslide

@@ -63,7 +63,7 @@ TransferChoice automatic(const AutomaticTransfer& rule, const ZoneHistory& h,
                                                          rule.distortion_limit, h.time[usable])
                                            : std::string();
   const std::optional<EnergyOnset> onset = find_onset(rule, h, base_energy);
-  if (!onset || onset->sample >= usable) {
+  if (!onset || onset->grown >= usable) {
     const std::optional<EnergyOnset> rising = rising_at_end(rule, h, base_energy);
     if (usable == n && rising) {
       return at_sample(
@@ -72,7 +72,7 @@ TransferChoice automatic(const AutomaticTransfer& rule, const ZoneHistory& h,
               "the kinetic energy exceeds {:g} times its pre-failure envelope from {:.4g} s "
               "to the end of the record, too short a time to call it failure, so the end of "
               "the record is taken",
-              rule.growth, h.time[rising->sample]));
+              rule.growth, h.time[rising->grown]));
     }
     if (usable == n) {
       return at_sample(
@@ -82,18 +82,19 @@ TransferChoice automatic(const AutomaticTransfer& rule, const ZoneHistory& h,
     }
     return at_sample(
         h, usable - 1,
-        fmt::format("{} before the kinetic energy leaves its pre-failure envelope, so the "
+        fmt::format("{} before the kinetic energy outgrows its pre-failure envelope, so the "
                     "last frame before the distortion is taken",
                     distorted));
   }
   const Development full = full_development(rule, h, usable);
-  const std::size_t begin = std::max(onset->sample, full.sample);
+  const std::size_t begin = std::max(onset->grown, full.sample);
   const std::string failure = fmt::format(
-      "the {} kinetic energy leaves its pre-failure envelope at {:.4g} s ({:.3g} J/m, more than "
-      "{:g} "
-      "times {:.3g} J/m) and liquefaction is fully developed at {:.4g} s ({} {:.3g} m)",
-      kEnergyFrames[static_cast<std::size_t>(rule.energy)], h.time[onset->sample], onset->energy,
-      rule.growth, onset->envelope, h.time[full.sample], full.window, full.depth);
+      "the {} kinetic energy leaves its pre-failure envelope at {:.4g} s and exceeds {:g} times it "
+      "from {:.4g} s on ({:.3g} J/m against {:.3g} J/m), liquefaction is fully developed at {:.4g} s "
+      "({} {:.3g} m)",
+      kEnergyFrames[static_cast<std::size_t>(rule.energy)], h.time[onset->begin], rule.growth,
+      h.time[onset->grown], onset->energy, onset->envelope, h.time[full.sample], full.window,
+      full.depth);
   if (usable == n) {
     return at_sample(
         h, n - 1,
@@ -103,10 +104,11 @@ TransferChoice automatic(const AutomaticTransfer& rule, const ZoneHistory& h,
   }
   const double target = h.time[begin] + rule.between * (h.time[usable] - h.time[begin]);
   const std::span<const double> times(h.time.data(), usable);
-  return at_sample(h, nearest_sample(times, target),
-                   fmt::format("{}, {}, and {:g} of the way from the later of the first two to the "
-                               "distortion is {:.4g} s",
-                               failure, distorted, rule.between, target));
+  return at_sample(
+      h, nearest_sample(times, target),
+      fmt::format("{}, {}, and {:g} of the way from the later of growth and development to "
+                  "the distortion is {:.4g} s",
+                  failure, distorted, rule.between, target));
 }
 
 }  // namespace

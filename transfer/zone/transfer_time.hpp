@@ -67,11 +67,12 @@ bool is_settled(const TransferTimeConfig& config, const ZoneHistory& history,
 std::vector<double> trailing_mean(std::span<const double> time, std::span<const double> value,
                                   double length);
 
-/// First sample at which the kinetic energy leaves its pre-failure envelope for good.
+/// A failure as the kinetic energy tells it: it leaves its pre-failure envelope, and outgrows it.
 struct EnergyOnset {
-  std::size_t sample = 0;
-  double energy = 0.0;    ///< trailing mean [J/m]
-  double envelope = 0.0;  ///< [J/m]
+  std::size_t begin = 0;  ///< above the envelope from here on until it has outgrown it
+  std::size_t grown = 0;  ///< first sample above `growth` times the envelope for good
+  double energy = 0.0;    ///< then, trailing mean [J/m]
+  double envelope = 0.0;  ///< then [J/m]
 };
 std::optional<EnergyOnset> find_onset(const AutomaticTransfer& rule, const ZoneHistory& history,
                                       std::span<const double> base_energy);

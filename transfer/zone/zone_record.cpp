@@ -184,7 +184,7 @@ void ZoneRecorder::append(const FemFrame& frame) {
 
 std::optional<std::size_t> ZoneRecorder::onset() const {
   const auto found = find_onset(config_.transfer.automatic, history_, base_energy_);
-  return found ? std::optional(found->sample) : std::nullopt;
+  return found ? std::optional(found->begin) : std::nullopt;
 }
 
 std::vector<double> ZoneRecorder::base_motion() const {

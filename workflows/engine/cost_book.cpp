@@ -24,8 +24,9 @@ CostTable read(const fs::path& file) noexcept {
   }
 }
 
-/// Letters and digits of the machine's name.
-std::string machine() {
+}  // namespace
+
+std::string machine_name() {
   std::array<char, 256> name{};
   if (::gethostname(name.data(), name.size() - 1) != 0) return "here";
   std::string text = name.data();
@@ -33,8 +34,6 @@ std::string machine() {
       text.begin(), text.end(), [](unsigned char c) { return !std::isalnum(c) && c != '-'; }, '_');
   return text.empty() ? "here" : text;
 }
-
-}  // namespace
 
 fs::path usual_cost_file() {
   const auto folder = [](const char* variable) {
@@ -47,7 +46,7 @@ fs::path usual_cost_file() {
     if (cache.empty()) return {};
     cache /= ".cache";
   }
-  return cache / "flowslide" / ("costs-" + machine() + ".json");
+  return cache / "flowslide" / ("costs-" + machine_name() + ".json");
 }
 
 CostBook::CostBook(fs::path file) : file_(std::move(file)), table_(read(file_)) {}

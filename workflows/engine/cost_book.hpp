@@ -11,6 +11,9 @@ namespace flowslide {
 /// there is no home. A home folder may be shared by machines of different speed.
 std::filesystem::path usual_cost_file();
 
+/// Name of this machine in letters, digits, '-' and '_'.
+std::string machine_name();
+
 /// A CostTable with the file that keeps it. A file that is missing, damaged or cannot be written
 /// costs estimates and nothing else: nothing here throws. Processes may share it: it is replaced as
 /// a whole, by what it held a moment before and what is new.
