@@ -65,7 +65,7 @@ std::vector<Draft> expand(const StudyFile& study) {
     };
     for (const Variable& variable : part.vary) {
       expect_few(variable.choices.size());
-      rows = varied(std::move(rows), variable);
+      rows = varied(rows, variable);
     }
     if (part.sample) {
       expect_few(part.sample->count);
