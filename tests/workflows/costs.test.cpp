@@ -144,6 +144,17 @@ TEST_CASE("a run learns what its stages take, and a plan tells it") {
     CHECK_FALSE(is_set(line.decision.expected.seconds));  // up to date
 }
 
+TEST_CASE("what other programs take is not learnt") {
+  const Work work{.seconds = 10.0, .parallel = 0.95, .memory = 1e8};
+  const double alone = work.on(2);
+  const double used = 10.0;  // by both threads together
+  CHECK(quiet_seconds(work, 2, 8.0 * alone, used) == Approx(alone));
+  CHECK(quiet_seconds(work, 2, alone, used) == Approx(alone));
+  CHECK(quiet_seconds(work, 1, 80.0, used) == Approx(10.0));
+  // Helper processes may use more than the stage says that it divides.
+  CHECK(quiet_seconds({.seconds = 6.0, .parallel = 0.0, .memory = 1e8}, 2, 3.0, 6.0) == 3.0);
+}
+
 TEST_CASE("every stage of the shipped workflows says how much it has to do") {
   const std::string file = GENERATE("mochikoshi-static.yaml", "mochikoshi.yaml");
   const auto seconds = [&](const std::vector<std::string>& set) {

@@ -83,4 +83,22 @@ double peak_memory() {
   return static_cast<double>(usage.ru_maxrss) * kBytesPerUnit;
 }
 
+double processor_time() {
+  const auto seconds_of = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  double sum = 0.0;
+  for (const auto who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage usage{};
+    if (::getrusage(who, &usage) == 0)
+      sum += seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
+  }
+  return sum;
+}
+
+double quiet_seconds(const Work& work, int threads, double wall, double processor) {
+  const double speed_up = is_set(work.seconds) ? work.seconds / work.on(threads) : 1.0;
+  return std::min(wall, processor / speed_up);
+}
+
 }  // namespace flowslide

@@ -40,4 +40,11 @@ class CostBook {
 /// Largest memory of this process so far [bytes].
 double peak_memory();
 
+/// User and system time of this process and of those that it has waited for [s].
+double processor_time();
+
+/// Wall time that work would have taken with its processors for itself [s]: other programs stretch
+/// the wall time, and hardly the processor time.
+double quiet_seconds(const Work& work, int threads, double wall, double processor);
+
 }  // namespace flowslide

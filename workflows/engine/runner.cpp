@@ -2,6 +2,7 @@
 
 #include "core/check.hpp"
 #include "core/files.hpp"
+#include "workflows/engine/cost_book.hpp"
 #include "workflows/engine/result_folder.hpp"
 #include "workflows/engine/run_folder.hpp"
 #include "workflows/engine/run_stage.hpp"
@@ -71,12 +72,22 @@ bool is_asked_for(const WorkflowStage& stage, const RunOptions& options) {
   return std::find(options.redo.begin(), options.redo.end(), stage.name) != options.redo.end();
 }
 
-/// The largest memory of the process is that of this stage only if it has grown.
+struct Spent {
+  Clock::time_point start = Clock::now();
+  double processor = processor_time(), memory = peak_memory();
+};
+
+/// The largest memory of the process is that of this stage only if it has grown. What earlier
+/// sessions have spent on a stage is known as wall time only.
 void learn(const Workflow& workflow, std::size_t stage, const RunOptions& options, double seconds,
-           double memory_before) {
-  const double memory = peak_memory();
-  options.costs->learn(task_of(workflow, stage), options.threads, seconds,
-                       memory > memory_before ? memory : 0.0);
+           const Spent& before) {
+  const double memory = peak_memory(), wall = seconds_since(before.start);
+  const Task task = task_of(workflow, stage);
+  constexpr double kMoment = 1.0;  // that a record may be longer by
+  if (seconds < wall + kMoment)
+    seconds = std::min(seconds, quiet_seconds(task.work, options.threads, wall,
+                                              processor_time() - before.processor));
+  options.costs->learn(task, options.threads, seconds, memory > before.memory ? memory : 0.0);
 }
 
 void run_stages(const Workflow& workflow, const RunOptions& options, const RunEvents& events) {
@@ -117,12 +128,10 @@ void run_stages(const Workflow& workflow, const RunOptions& options, const RunEv
       state = {*decision.record, std::move(decision.files)};
     } else {
       top.stage_runs();
-      const auto stage_start = Clock::now();
-      const double memory_before = peak_memory();
+      const Spent before;
       state = run_stage(stage, decision, inputs, options, events);
-      in_stages += seconds_since(stage_start);
-      if (options.costs)
-        learn(workflow, outcomes.size(), options, state.record.seconds, memory_before);
+      in_stages += seconds_since(before.start);
+      if (options.costs) learn(workflow, outcomes.size(), options, state.record.seconds, before);
       decision.warnings = warnings_of(stage, &state.record);
       events.done(stage.name, state.record.seconds);
       events.warned(stage.name, decision.warnings);
