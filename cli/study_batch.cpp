@@ -204,7 +204,7 @@ std::string queue_text(const fs::path& folder) {
     const study::UnderWay found = under_way(folder, scheduler, scheduler.queue());
     if (found.jobs.empty()) return "";
     return queue_words(found, scheduler);
-  } catch (const Error&) {
+  } catch (const std::exception&) {
     return "";  // this machine may not be of the cluster
   }
 }

@@ -1,5 +1,7 @@
 #include "fem/build_model.hpp"
 
+#include "core/conventions.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -294,6 +296,14 @@ Model build_model(const SectionMesh& section, const FemConfig& config) {
   if (config.sides.kind == SideKind::free_field)
     for (const char* side : {"left", "right"}) hold_column(r, section, side, config);
   return r;
+}
+
+Damping rayleigh(const FemDampingConfig& c) {
+  const double w1 = 2.0 * kPi * c.frequencies[0], w2 = 2.0 * kPi * c.frequencies[1];
+  Damping d{2.0 * c.ratio * w1 * w2 / (w1 + w2), 2.0 * c.ratio / (w1 + w2)};
+  if (c.mass) d = {*c.mass, *c.stiffness};
+  if (c.like_newmark) d.stiffness += (c.like_newmark->gamma - 0.5) * c.like_newmark->step;
+  return d;
 }
 
 }  // namespace flowslide::fem

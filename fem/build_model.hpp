@@ -1,5 +1,6 @@
 #pragma once
 #include "fem/config.hpp"
+#include "fem/solver.hpp"
 #include "model/history_material.hpp"
 #include "model/section_mesh.hpp"
 
@@ -16,5 +17,8 @@ std::vector<HistoryMaterial> history_materials(const SectionMesh& section, const
 
 /// Level of the water table at x [m].
 double water_level(const WaterConfig& water, double x);
+
+/// Factors of mass and stiffness that the settings come to.
+Damping rayleigh(const FemDampingConfig& c);
 
 }  // namespace flowslide::fem

@@ -57,14 +57,6 @@ void check_output(const FemConfig& config, double end, std::size_t nodes, std::s
            config.output_interval, bytes * 1e-9, end, kMostBytes * 1e-9);
 }
 
-Damping rayleigh(const FemDampingConfig& c) {
-  const double w1 = 2.0 * kPi * c.frequencies[0], w2 = 2.0 * kPi * c.frequencies[1];
-  Damping d{2.0 * c.ratio * w1 * w2 / (w1 + w2), 2.0 * c.ratio / (w1 + w2)};
-  if (c.mass) d = {*c.mass, *c.stiffness};
-  if (c.like_newmark) d.stiffness += (c.like_newmark->gamma - 0.5) * c.like_newmark->step;
-  return d;
-}
-
 /// Ground velocity: the acceleration integrated as the straight line between its samples.
 class Velocity {
  public:

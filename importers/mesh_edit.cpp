@@ -74,7 +74,14 @@ void keep_between(SectionMesh& section, double left, double right) {
 
 void divide_in_four(SectionMesh& section) {
   QuadMesh& mesh = section.mesh;
+  constexpr std::size_t kMostElements = 2'000'000;
+  constexpr std::int64_t kLargestTag = std::int64_t{1} << 62;
+  validate(4 * mesh.num_elements() <= kMostElements,
+           "{} elements would become {} (at most {} are made) divide fewer times",
+           mesh.num_elements(), 4 * mesh.num_elements(), kMostElements);
   std::int64_t tag = *std::ranges::max_element(mesh.node_tags);
+  validate(tag < kLargestTag,
+           "a node has the number {} (new ones count on from it) number them anew", tag);
   const auto add_node = [&](const Vec2& x) {
     mesh.nodes.push_back(x);
     mesh.node_tags.push_back(++tag);

@@ -11,7 +11,7 @@ void keep_between(SectionMesh& section, double left, double right);
 
 /// Divides each element in four through its centre and the middles of its edges. Nodes keep their
 /// numbers and tags; the four of element i have the numbers 4 i to 4 i + 3, in the order of its
-/// corners, and the tags after them.
+/// corners, and the tags after them. Throws InputError where more than two million would be made.
 void divide_in_four(SectionMesh& section);
 
 }  // namespace flowslide

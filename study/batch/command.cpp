@@ -12,6 +12,12 @@
 
 namespace flowslide::study {
 
+namespace {
+
+constexpr std::chrono::minutes kPatience{5};
+
+}  // namespace
+
 std::optional<CommandEnd> run_command(const std::vector<std::string>& words,
                                       const std::filesystem::path& folder,
                                       const std::atomic<bool>* stop) {
@@ -27,11 +33,18 @@ std::optional<CommandEnd> run_command(const std::vector<std::string>& words,
     ::execvp(arguments[0], arguments.data());
     return errno == ENOENT ? kNoProgram : kNoFolder;
   });
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
   CommandEnd end;
   int status = 0;
   while (!child.has_ended(status)) {
     if (stop && stop->load())
       throw Interrupted(fmt::format("stopped while '{}' was running", words[0]));
+    if (Clock::now() - start > kPatience)
+      throw FileError(fmt::format(
+          "{}: has not answered for {} minutes, and was ended. Run the same command again when it "
+          "does; it asks first what is in the queue.",
+          words[0], kPatience.count()));
     end.out += child.read_output();
     (void)child.read_errors();
     std::this_thread::sleep_for(std::chrono::milliseconds(5));

@@ -19,8 +19,9 @@ constexpr std::string_view kRecordEnding = ".json";
 /// DIR/slurm/3 for the next one to be sent.
 fs::path next_folder(const fs::path& all) {
   unsigned last = 0;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(all, error)) {
+  // A folder that cannot be listed is an error: jobs in the queue have their scripts in it.
+  if (!fs::exists(all)) return all / "1";
+  for (const auto& entry : fs::directory_iterator(all)) {
     const std::string name = entry.path().filename().string();
     unsigned number = 0;
     const auto [end, problem] = std::from_chars(name.data(), name.data() + name.size(), number);
@@ -199,16 +200,17 @@ fs::path file_of(const Script& script, std::string_view ending) {
 UnderWay under_way(const fs::path& study, const Scheduler& scheduler,
                    const std::vector<QueuedTask>& queue) {
   UnderWay result;
-  std::error_code error;
-  const fs::path all = fs::weakly_canonical(study / scheduler.name, error);
+  const fs::path all = fs::weakly_canonical(study / scheduler.name);
   std::map<fs::path, ArrayRecord> records;
   for (const QueuedTask& task : queue) {
+    // Scripts of other jobs may lie where nobody can look from here.
+    std::error_code error;
     const fs::path script = fs::weakly_canonical(task.script, error);
     if (error || script.parent_path().parent_path() != all) continue;
     fs::path file = script;
     file.replace_extension(kRecordEnding);
     // The job of the report has none.
-    if (!fs::exists(file, error)) continue;
+    if (!fs::exists(file)) continue;
     if (!records.contains(file)) records[file] = read_array(file);
     const auto& tasks = records[file].tasks;
     if (task.task >= tasks.size()) continue;

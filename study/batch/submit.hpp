@@ -26,7 +26,8 @@ struct UnderWay {
   std::size_t waiting = 0, running = 0, ending = 0;  ///< tasks
 };
 
-/// Those entries of a queue that are of this study, told by their scripts.
+/// Those entries of a queue that are of this study, told by their scripts. Throws FileError and
+/// std::filesystem::filesystem_error.
 UnderWay under_way(const std::filesystem::path& study, const Scheduler& scheduler,
                    const std::vector<QueuedTask>& queue);
 

@@ -2,6 +2,8 @@
 
 #include "core/check.hpp"
 
+#include <limits>
+
 #include <catch2/catch.hpp>
 
 using namespace flowslide;
@@ -73,4 +75,13 @@ TEST_CASE("An element divided in four covers the same ground with edges that sti
   CHECK(s.sets[0].edges.size() == 6);
   CHECK(s.sets[1].edges.size() == 2);
   CHECK(s.mesh.nodes[s.sets[1].edges[0][1]][1] == Approx(1.25));
+}
+
+TEST_CASE("A division that would fill the memory or run out of numbers is refused") {
+  SectionMesh many = row();
+  many.mesh.elements.resize(500'001, many.mesh.elements[0]);
+  CHECK_THROWS_AS(divide_in_four(many), InputError);
+  SectionMesh large = row();
+  large.mesh.node_tags[0] = std::numeric_limits<std::int64_t>::max();
+  CHECK_THROWS_AS(divide_in_four(large), InputError);
 }

@@ -155,6 +155,19 @@ TEST_CASE("what other programs take is not learnt") {
   CHECK(quiet_seconds({.seconds = 6.0, .parallel = 0.0, .memory = 1e8}, 2, 3.0, 6.0) == 3.0);
 }
 
+TEST_CASE("the damping of another program shortens the steps that a shaking is expected to take") {
+  const auto seconds = [](const std::vector<std::string>& set) {
+    const Workflow workflow =
+        load_workflow(test::source("workflows/mochikoshi.yaml"), set, all_stages());
+    return workflow.stages[2].work.seconds;
+  };
+  const double own = seconds({"stages.shake.with.damping={}"});
+  const double like = seconds({"stages.shake.with.damping={like_newmark: {}}"});
+  CHECK(like > 1.5 * own);
+  // Written out, rounded to 0.00447 s: the same.
+  CHECK(like == Approx(seconds({})).epsilon(0.01));
+}
+
 TEST_CASE("every stage of the shipped workflows says how much it has to do") {
   const std::string file = GENERATE("mochikoshi-static.yaml", "mochikoshi.yaml");
   const auto seconds = [&](const std::vector<std::string>& set) {

@@ -1,11 +1,11 @@
 #include "workflows/stages/work.hpp"
 
 #include "core/conventions.hpp"
+#include "fem/build_model.hpp"
 #include "mpm/run/stiffness.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace flowslide {
 namespace {
@@ -49,9 +49,7 @@ double smallest_height(const QuadMesh& mesh) {
 /// waves across the height of an element.
 double stable_step(double height, const FemDampingConfig& damping) {
   const double undamped = height / kSaturatedWave, dry = 2.0 * kDryWave / height;
-  const double usual =
-      damping.ratio / (std::numbers::pi * (damping.frequencies[0] + damping.frequencies[1]));
-  const double a = 0.25 * damping.stiffness.value_or(usual) * dry * dry;
+  const double a = 0.25 * fem::rayleigh(damping).stiffness * dry * dry;
   return 1.0 / (a + std::sqrt(a * a + 1.0 / (undamped * undamped)));
 }
 
