@@ -95,8 +95,9 @@ template <class T>
   }
   r.at = select(taken, trial.end, r.at);
   r.done = select(taken, select(last, T(1.0), r.done + part), r.done);
-  r.next = select(taken, clamp(part * change, r.smallest, r.largest),
-                  max(part * min(change, T(0.8)), r.smallest));
+  // in this order what is not a number becomes the smallest, so that every point comes to its end
+  r.next = select(taken, min(max(r.smallest, part * change), r.largest),
+                  max(r.smallest, part * min(change, T(0.8))));
   return Outcome<decltype(last)>{taken, taken && lifted, !(r.done < T(1.0))};
 }
 
@@ -120,15 +121,16 @@ template <template <class> class Struct, class T>
 }
 
 /// The next task that takes any work, and the size of its increment; 0 at the end of all. A point
-/// that is not strained stays as it is; what is not a number is handed on, and made of more strain
-/// than any soil has in a step, which would take hours of sub-steps to the same end.
+/// that is not strained stays as it is; what is not a number is handed on, and made of a stress
+/// whose square is none and of more strain than any soil has in a step.
 template <class Next>
 double next_task(PM4Sand::Task& task, Next&& next) {
   while (next(task)) {
     const Stress<2>& sigma = *task.stress;
     const StrainIncrement<2>& de = task.increment;
     const double size = std::max({std::abs(de[0]), std::abs(de[1]), std::abs(de[3])});
-    if (!std::isfinite(sigma[0] + sigma[1] + sigma[3] + de[0] + de[1] + de[3]) ||
+    if (!std::isfinite(sigma[0] * sigma[0] + sigma[1] * sigma[1] + sigma[3] * sigma[3] + de[0] +
+                       de[1] + de[3]) ||
         size > kMostStrain)
       task.stress->v.fill(kUnset);
     else if (size != 0.0)

@@ -138,18 +138,30 @@ TEST_CASE("PM4Sand ends in time whatever state and strain it is given", "[pm4san
   // What a forged checkpoint may hold; each took hours of sub-steps or never ended.
   const PM4Sand::Constants soil = PM4Sand::constants(pm4sand_tailings());
   const Stress<2> sigma = at_rest(1e5);
-  for (const double huge : {1e4, 1e100, 1e250, -1e300}) {
+  const auto limit = static_cast<int>(pm4sand::kMaxSubSteps) + 2;  // rounding may leave a bit
+  const auto ends = [&](const PM4Sand::State& state) {
+    for (const double strain : {1e-5, 0.5})
+      CHECK(PM4Sand::update(soil, state, sigma, {{strain, 0.0, 0.0, strain}}).sub_steps < limit);
+  };
+  const PM4Sand::State good = PM4Sand::initial_state(soil, sigma);
+  for (const double huge : {1e4, 1e100, 1e250, -1e300, double(NAN)}) {
     CAPTURE(huge);
-    const auto limit = static_cast<int>(pm4sand::kMaxSubSteps) + 2;  // rounding may leave a bit
-    for (const double strain : {1e-5, 0.9}) {
-      PM4Sand::State state = PM4Sand::initial_state(soil, sigma);
-      state.alpha.d = state.z.t = huge;
-      CHECK(PM4Sand::update(soil, state, sigma, {{strain, 0.0, 0.0, strain}}).sub_steps < limit);
-      state = PM4Sand::initial_state(soil, sigma);
-      state.void_ratio = state.z_cum = huge;
-      CHECK(PM4Sand::update(soil, state, sigma, {{strain, 0.0, 0.0, strain}}).sub_steps < limit);
+    PM4Sand::State state = good;
+    state.alpha.d = state.z.t = huge;
+    ends(state);
+    state = good;
+    state.void_ratio = state.z_cum = huge;
+    ends(state);
+    for (double PM4Sand::State::*member : {&PM4Sand::State::held_p, &PM4Sand::State::p_min,
+                                           &PM4Sand::State::z_max, &PM4Sand::State::band}) {
+      state = good;
+      state.*member = huge;
+      ends(state);
     }
-    const PM4Sand::State state = PM4Sand::initial_state(soil, sigma);
-    CHECK(std::isnan(PM4Sand::update(soil, state, sigma, {{huge, 0.0, 0.0, 0.0}}).stress[0]));
+    CHECK(std::isnan(PM4Sand::update(soil, good, sigma, {{huge, 0.0, 0.0, 0.0}}).stress[0]));
+  }
+  for (const double huge : {1e160, -1e250}) {
+    const StrainIncrement<2> little{{1e-5, 0.0, 0.0, 1e-5}};
+    CHECK(std::isnan(PM4Sand::update(soil, good, {{huge, huge, huge, 0.0}}, little).stress[0]));
   }
 }
