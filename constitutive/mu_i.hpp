@@ -90,15 +90,6 @@ struct MuI {
     return r;
   }
 
-  /// Wave modulus [Pa] as the time step sees it. Grains that have parted by more than one step can
-  /// close push on nothing and rub on nothing; a trace is left so that the step stays finite.
-  template <int Dim, class T>
-  static T present_modulus(const Constants& c, const StateOf<T>& s,
-                           const Stress<Dim, T>&) noexcept {
-    const double modulus = c.elastic.bulk + 4.0 / 3.0 * c.elastic.shear;
-    return modulus_with_gap(modulus, (1.0 - 1e-6) * modulus, s.gap);
-  }
-
   /// No tension, and the deviator scaled to mu_2 p, which no rate exceeds: between mu_s and mu_2
   /// the stress says how fast it flows.
   static AdmissibleStress admissible(const Constants& c, const State& s, const Stress<2>& total,
