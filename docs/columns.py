@@ -44,8 +44,15 @@ def block(text, kind):
 def update(text, rows, kind):
     name, pattern, known = kind
     matches = [(re.fullmatch(pattern, r["name"]), r) for r in rows]
-    new = [(m["case"], line(m["case"], m["quantity"], r)) for m, r in matches if m]
-    new = [(c, n) for c, n in new if "motion_left" not in n]
+    new, seconds = [], 0.0
+    for m, r in matches:
+        if not m:
+            continue
+        seconds += r["core_seconds"]
+        if m["quantity"].endswith("motion_left"):  # its time is the run's, which the next row shows
+            continue
+        new.append((m["case"], line(m["case"], m["quantity"], {**r, "core_seconds": seconds})))
+        seconds = 0.0
     found = block(text, kind)
     cases = {c for c, _ in new}
     kept = [n for n in found[1].splitlines()[2:] if n.split("|")[1].strip() not in cases]
