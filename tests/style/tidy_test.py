@@ -47,6 +47,9 @@ def main():
             tidy(root, 1, "looks at 1 of 4 files", "core/a.hpp:1:32", "zero as null pointer")
         (root / "core/a.hpp").write_text(GOOD, encoding="utf-8")
         tidy(root, 0, "looks at 0 of 4 files")
+        (root / "core/b.cpp").write_text(BAD, encoding="utf-8")
+        (root / "core/c.cpp").write_text("int c();\n", encoding="utf-8")
+        tidy(root, 1, "looks at 2 of 4 files", "core/b.cpp:1:32", "zero as null pointer")
 
 
 main()
