@@ -153,13 +153,16 @@ def main():
         sys.exit(f"no files of these folders in '{build}/compile_commands.json'")
     print(f"clang-tidy looks at {len(work)} of {count} files, the others are as it saw them",
           flush=True)
-    clean = True
+    clean, said = True, {""}  # one in a header is found with every file that includes it
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         runs = [pool.submit(tidy.look, *batch) for batch in batches(work)]
         for run in concurrent.futures.as_completed(runs):
             for paths, findings in run.result():
                 clean = clean and not findings
-                print(findings, end="", flush=True)
+                for finding in re.split(r"^(?=/)", findings, flags=re.MULTILINE):
+                    if finding not in said:
+                        print(finding, end="", flush=True)
+                        said.add(finding)
                 for stamp, key in () if findings else (keys[path] for path in paths):
                     stamp.write_text(key, encoding="utf-8")
     if not clean:
