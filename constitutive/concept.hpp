@@ -1,4 +1,5 @@
 #pragma once
+#include "constitutive/gap.hpp"
 #include "core/voigt.hpp"
 
 #include <array>
@@ -40,15 +41,23 @@ constexpr Stress<Dim, T> hooke(const Elasticity& e, const Stress<Dim, T>& s,
 }
 
 /// The update of law M. Laws whose stress depends on the rate of strain say so with
-/// `rate_dependent` and take the time step [s] as well.
+/// `rate_dependent` and take the time step [s] as well. Soil that has come apart has no stress.
 template <class M, int Dim, class T>
 [[nodiscard]] StressUpdate<typename M::template StateOf<T>, Dim, T> update_law(
     const typename M::Constants& c, const typename M::template StateOf<T>& state,
     const Stress<Dim, T>& sigma, const StrainIncrement<Dim, T>& de, double dt) noexcept {
-  if constexpr (requires { M::rate_dependent; })
-    return M::template update<Dim>(c, state, sigma, de, dt);
-  else
-    return M::template update<Dim>(c, state, sigma, de);
+  auto result = [&] {
+    if constexpr (requires { M::rate_dependent; })
+      return M::template update<Dim>(c, state, sigma, de, dt);
+    else
+      return M::template update<Dim>(c, state, sigma, de);
+  }();
+  if constexpr (requires { result.state.gap; }) {
+    const auto apart = result.state.gap > T(kApart);
+    for (int i = 0; i < kVoigt<Dim>; ++i)
+      result.stress[i] = select(apart, T(0.0), result.stress[i]);
+  }
+  return result;
 }
 
 /// A law M. `StateOf<T>` is an aggregate of numbers T in the order of `state_names`, so that

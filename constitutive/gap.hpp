@@ -26,13 +26,19 @@ template <class T>
   return select(gap > T(0.0), min(pore_pressure, left), pore_pressure);
 }
 
-/// `modulus`, which contains K, as the time step sees it. While more is open than one step can
-/// close, changes of volume move the gap and nothing else, so K is out of play: debris that has
-/// opened to several times its volume would otherwise set a step for a stiffness it does not have.
+/// Soil that has opened by more is in pieces that do not touch, and free of stress until the gap
+/// has closed to this again. It is twice the largest strain_limit that a run accepts, so that no
+/// step closes it at once.
+inline constexpr double kApart = 0.4;
+
+/// The modulus of closed soil as the time step sees it, which multiplies it by the present volume.
+/// Soil in pieces resists nothing; a trace keeps the step finite. A smaller gap closes before the
+/// soil is compressed, and takes its part of the volume with it: exp(gap), from below.
 template <class T>
-[[nodiscard]] T modulus_with_gap(double modulus, double bulk, T gap) noexcept {
-  constexpr double kBeyondOneStep = 0.4;  // twice the largest strain_limit that a run accepts
-  return select(gap > T(kBeyondOneStep), T(modulus - bulk), T(modulus));
+[[nodiscard]] T modulus_with_gap(double modulus, T gap) noexcept {
+  constexpr double kTrace = 1e-6;
+  return select(gap > T(kApart), T(kTrace * modulus),
+                modulus * reciprocal(1.0 + gap * (1.0 + 0.5 * gap)));
 }
 
 }  // namespace flowslide

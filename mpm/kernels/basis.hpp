@@ -3,6 +3,8 @@
 #include "core/pack.hpp"
 #include "mpm/kernels/scheme.hpp"
 
+#include <cmath>
+
 /// One-dimensional shape functions on a grid of unit spacing; tensor products give 2D and 3D.
 /// A point at x [cells] touches the nodes base, ..., base + nodes - 1 with base = floor(x - shift).
 /// `evaluate` gives weights and gradients [1/cell] at the distance d = x - base.
@@ -153,6 +155,31 @@ decltype(auto) visit_basis(BasisKind kind, F&& f) {
       break;
   }
   return f(CubicBSpline{});
+}
+
+/// What bounds (K + 2 G) / rho (dt / h)^2 / 4 from above, per direction (docs/theory/time-step.md).
+template <class Basis>
+double step_bound(const StepSettings& s) noexcept {
+  switch (s.transfer) {
+    case Transfer::apic:
+    case Transfer::aflip:
+      return Basis::affine_bound;
+    case Transfer::tpic:
+      return Basis::gradient_bound;
+    case Transfer::flip:
+    case Transfer::pic:
+      return 2.0 * Basis::gradient_bound;
+    case Transfer::fmpm:
+      break;
+  }
+  return 2.0 * s.fmpm_order * Basis::gradient_bound;
+}
+
+/// Cells that a wave may cross in a stable step.
+template <int Dim>
+double stable_cells(const StepSettings& s) {
+  return visit_basis(
+      s.basis, [&]<class Basis>(Basis) { return 2.0 / std::sqrt(Dim * step_bound<Basis>(s)); });
 }
 
 }  // namespace flowslide::mpm

@@ -37,6 +37,9 @@ struct NodeSums {
   Pack u, moment[Dim], gradient[Dim];
 };
 
+// Lambdas say that they are to be inlined: `flatten` stops at some of them when a function has
+// grown, and their captures then go through memory.
+
 template <int Dim, class Basis, class Fetch>
 [[gnu::always_inline]] inline NodeSums<Dim> sum_nodes(const Stencil<Dim, Basis>& s,
                                                       const Fetch& fetch,
@@ -44,11 +47,11 @@ template <int Dim, class Basis, class Fetch>
   constexpr int N = Basis::nodes, W = kLocalWidth<Dim, Basis>;
   NodeSums<Dim> r;
   Pack s_u = 0, s_x = 0, s_y = 0, s_z = 0, g_x = 0, g_y = 0, g_z = 0;
-  unroll<(Dim == 3 ? N : 1)>([&](auto l) {
+  unroll<(Dim == 3 ? N : 1)>([&](auto l) __attribute__((always_inline)) {
     Pack t_u = 0, t_x = 0, t_y = 0, t_gx = 0, t_gy = 0;
-    unroll<N>([&](auto j) {
+    unroll<N>([&](auto j) __attribute__((always_inline)) {
       Pack a = 0, ax = 0, ag = 0;
-      unroll<N>([&](auto i) {
+      unroll<N>([&](auto i) __attribute__((always_inline)) {
         const Pack vi = fetch(v + (i + W * j + (Dim == 3 ? W * W * l : 0)));
         const Pack weighted = s.w[0][i] * vi;
         a += weighted;
@@ -86,7 +89,7 @@ template <int Dim, class Basis, class Fetch>
                                                const double* v) noexcept {
   constexpr int N = Basis::nodes, W = kLocalWidth<Dim, Basis>;
   Pack sum = 0.0;
-  unroll<power<Dim>(N)>([&](auto n) {
+  unroll<power<Dim>(N)>([&](auto n) __attribute__((always_inline)) {
     constexpr int i = n % N, j = n / N % N, l = n / (N * N);
     Pack weight = s.w[0][i] * s.w[1][j];
     if constexpr (Dim == 3) weight *= s.w[Dim - 1][l];

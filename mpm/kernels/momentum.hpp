@@ -66,8 +66,8 @@ double load_on(const std::array<double, 8>& q, int d) noexcept {
 
 /// Velocities of a block's nodes after the step, and their change in place of the force. Without
 /// tractions where not `kLoaded`. Nodes in `at_walls`, one bit each, are damped by hold_at_walls,
-/// when all forces on them are known. `gain2` is raised to the largest square of a change, times
-/// (m / light)^2 for light nodes [m2/s2].
+/// when all forces on them are known. `gain2` is raised to the largest square of a change of the
+/// others, times (m / light)^2 for light nodes [m2/s2].
 template <int Dim, bool kLoaded>
 GridWork<Dim> update_momentum(Grid<Dim>& grid, std::size_t block, const MomentumSettings& s,
                               std::uint64_t at_walls, double full_mass, double& gain2) noexcept {
@@ -112,6 +112,7 @@ GridWork<Dim> update_momentum(Grid<Dim>& grid, std::size_t block, const Momentum
       q[L::force + d] = change;
       change2 += change * change;
     }
+    if (at_walls >> n & 1) continue;
     const double share = std::min(1.0, m * per_light);
     // Written so that a change that is not a number counts.
     if (!(share * share * change2 <= largest2)) largest2 = share * share * change2;

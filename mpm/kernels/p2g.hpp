@@ -3,7 +3,8 @@
 #include "mpm/kernels/stencil.hpp"
 
 /// Particle to grid: mass, momentum (with the affine field) and internal force in one sweep.
-/// m_i = sum w m;  (mv)_i = sum w m (v + C (x_i - x_p));  f_i = -sum V sigma grad w.
+/// m_i = sum w m;  (mv)_i = sum w m (v + C (x_i - x_p));  f_i = -sum V sigma grad w, which with the
+/// gradient of the affine field, w (x_i - x_p) / (D h^2), has the form of the momentum.
 namespace flowslide::mpm {
 
 /// What goes to the grid beside mass: the points' momentum and force, their momentum alone, or that
@@ -14,7 +15,8 @@ using TileVelocity = std::array<std::vector<double>, Dim>;  ///< per point of th
 
 /// What points give to their nodes, one record of node sums per point: node (i, j) receives
 /// w_i w_j (a + i b_0 + j b_1) + g_i w_j f_0 + w_i g_j f_1. The first direction is kept as a (with
-/// f_0 in the lanes of the force) and b_0, the others as b and f in one record.
+/// f_0 in the lanes of the force) and b_0, the others as b and f in one record. With the gradient
+/// of the affine field there is no f, and the lanes of the force are like those of the momentum.
 template <int Dim>
 struct Contributions {
   NodeVector a[Pack::lanes], b[Pack::lanes], other[Dim - 1][Pack::lanes];
@@ -48,14 +50,21 @@ template <int Dim, class Basis, Scatter kScatter>
   });
   if constexpr (kScatter == Scatter::force) {
     // Gradients of the stencil are per cell.
-    const Pack minus_v = load_pack(p.volume.data() + q, count) * (-1.0 / h);
+    Pack minus_v = load_pack(p.volume.data() + q, count) * (-1.0 / h);
+    if constexpr (Basis::affine_gradient) minus_v *= 1.0 / Basis::affine_moment;
     const Pack mean = load_pack(mean_change, count);
     unroll<Dim>([&](auto d) {
       unroll<Dim>([&](auto e) {
         constexpr int voigt[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
         Pack sigma = load_pack(p.sigma[voigt[d][e]].data() + q, count);
         if constexpr (d == e) sigma += mean;
-        (e == 0 ? a : b[e])[L::force + d] = minus_v * sigma;
+        const Pack pull = minus_v * sigma;
+        if constexpr (Basis::affine_gradient) {
+          a[L::force + d] += pull * s.r[e];
+          b[e][L::force + d] = pull;
+        } else {
+          (e == 0 ? a : b[e])[L::force + d] = pull;
+        }
       });
     });
   }
@@ -118,6 +127,40 @@ void give_to_nodes(const LaneStencil<Dim, Basis>& s, const Contributions<Dim>& g
   }
 }
 
+/// Products of the weights of the points of a pack, node by node and lane by lane.
+template <int Dim, class Basis>
+struct LaneWeights {
+  static constexpr int N = Basis::nodes;
+  alignas(64) double w[power<Dim>(N)][Pack::lanes];
+  explicit LaneWeights(const Stencil<Dim, Basis>& s) noexcept {
+    unroll<power<Dim>(N)>([&](auto n) {
+      constexpr int i = n % N, j = n / N % N, l = n / (N * N);
+      Pack weight = s.w[0][i] * s.w[1][j];
+      if constexpr (Dim == 3) weight *= s.w[Dim - 1][l];
+      store_pack(w[n], weight, Pack::lanes);
+    });
+  }
+};
+
+/// What point `k` of a pack gives to the nodes of its stencil; `target(n)` is node n.
+template <int Dim, class Basis, class Target>
+void give_to_nodes(const LaneWeights<Dim, Basis>& s, const Contributions<Dim>& give, int k,
+                   Target&& target) noexcept {
+  constexpr int N = Basis::nodes;
+  NodeVector row[N];
+  unroll<N>([&](auto i) {
+    row[i] = give.a[k];
+    if constexpr (i > 0) row[i] += double(i) * give.b[k];
+  });
+  unroll<power<Dim>(N)>([&](auto n) {
+    constexpr int i = n % N, j = n / N % N, l = n / (N * N);
+    NodeVector value = row[i];
+    if constexpr (j > 0) value += double(j) * give.other[0][k];
+    if constexpr (l > 0) value += double(l) * give.other[Dim - 2][k];
+    target(n) += s.w[n][k] * value;
+  });
+}
+
 /// The points of a tile into its `window` (kWindowNodes). With Scatter::force `mean_change` is
 /// added to the normal stresses of each point of the tile: what F-bar does to the force. With
 /// Scatter::velocity `velocity` is what the points have.
@@ -147,7 +190,9 @@ template <int Dim, class Basis, Scatter kScatter>
     contributions<Dim, Basis, kScatter>(
         p, q, count, kScatter == Scatter::force ? mean_change + in_tile : nullptr, from, s, h,
         give);
-    const LaneStencil<Dim, Basis> lanes(s);
+    using Lanes = std::conditional_t<Basis::affine_gradient, LaneWeights<Dim, Basis>,
+                                     LaneStencil<Dim, Basis>>;
+    const Lanes lanes(s);
     for (int k = 0; k < count; ++k) {
       NodeVector* at = window + s.at[k];
       if constexpr (kHold) {

@@ -49,14 +49,14 @@ void write_state(Points<Dim>& p, std::int32_t q, int n,
 
 /// Wave modulus of a law's result, `elastic` that without strain and gap [Pa].
 template <int Dim, class M, class T, class Result>
-T present_modulus(const typename M::Constants& constants, const Result& result, double elastic,
-                  double bulk) noexcept {
+T present_modulus(const typename M::Constants& constants, const Result& result,
+                  double elastic) noexcept {
   if constexpr (requires {
                   M::template present_modulus<Dim>(constants, result.state, result.stress);
                 })
     return M::template present_modulus<Dim>(constants, result.state, result.stress);
   else if constexpr (requires { result.state.gap; })
-    return modulus_with_gap(elastic, bulk, result.state.gap);
+    return modulus_with_gap(elastic, result.state.gap);
   else
     return elastic;
 }
@@ -86,7 +86,7 @@ struct RunSums {
 
 template <int Dim, class M>
 [[gnu::flatten]] StressWork update_run(Points<Dim>& p, const Tile<Dim>& tile,
-                                       const MaterialRun& run, const SolverMaterial& material,
+                                       const MaterialRun& run,
                                        const typename M::Constants& constants, double dt,
                                        double modulus, const TileScratch<Dim>& s) noexcept {
   using T = Lanes<Dim, M>;
@@ -120,7 +120,7 @@ template <int Dim, class M>
     write_state<M, T>(p, q, n, result.state);
     const T new_volume = grown(volume, de[0] + de[1] + de[2]);
     write(p.volume, new_volume);
-    const T present = present_modulus<Dim, M, T>(constants, result, modulus, material.elastic.bulk);
+    const T present = present_modulus<Dim, M, T>(constants, result, modulus);
     sums.wave2 = max(sums.wave2, present * new_volume * reciprocal(read(p.mass, q)));
     T v2 = 0.0, l2 = 0.0;
     unroll<Dim>([&](auto d) {
@@ -157,7 +157,7 @@ StressWork update_stress(Points<Dim>& p, const Tile<Dim>& tile, std::span<const 
     const double modulus = wave_modulus(m.elastic, average && m.average_volume);
     total.add(std::visit(
         [&]<class M>(const Typed<M>& law) {
-          return update_run<Dim, M>(p, tile, run, m, law.constants, dt, modulus, s);
+          return update_run<Dim, M>(p, tile, run, law.constants, dt, modulus, s);
         },
         m.law));
   }

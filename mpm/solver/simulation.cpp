@@ -11,24 +11,6 @@
 namespace flowslide::mpm {
 namespace {
 
-/// What bounds (K + 2 G) / rho (dt / h)^2 / 4 from above, per direction (docs/theory/time-step.md).
-template <class Basis>
-double step_bound(const StepSettings& s) {
-  switch (s.transfer) {
-    case Transfer::apic:
-    case Transfer::aflip:
-      return Basis::affine_bound;
-    case Transfer::tpic:
-      return Basis::gradient_bound;
-    case Transfer::flip:
-    case Transfer::pic:
-      return 2.0 * Basis::gradient_bound;
-    case Transfer::fmpm:
-      break;
-  }
-  return 2.0 * s.fmpm_order * Basis::gradient_bound;
-}
-
 /// The affine field of debris: points that have opened so far that their neighbours, parted in one
 /// direction, share no node with them. Nothing tells such a point that the soil around it thins, so
 /// its rate of deformation would stay and its volume grow exponentially. As in free flight it falls
@@ -172,9 +154,8 @@ void check_way(const Simulation<Dim>& s) {
 template <int Dim>
 double stable_step(const Simulation<Dim>& s) {
   const double h = s.grid.h;
-  const double bound = visit_basis(
-      s.settings.basis, [&]<class Basis>(Basis) { return step_bound<Basis>(s.settings); });
-  const double elastic = 2.0 * h / std::sqrt(Dim * bound * s.last.max_wave2) * s.settings.courant;
+  const double elastic =
+      stable_cells<Dim>(s.settings) * h / std::sqrt(s.last.max_wave2) * s.settings.courant;
   const double speed = std::sqrt(s.last.max_speed2);
   const double advective = s.settings.velocity_limit * h / std::max(speed, 1e-300);
   // The rate of the last step stands for this one.
@@ -228,6 +209,7 @@ void prepare(Simulation<Dim>& s, StepScratch<Dim>& scratch, bool rebin) {
   scratch.sleep_work.resize(scratch.asleep.tiles.empty() ? 0 : s.tiling.tiles.size());
   scratch.grid_work.resize(s.grid.blocks.size());
   scratch.gain2.resize(s.grid.blocks.size());
+  scratch.at_walls.reserve(s.contact.nodes.size());
   const bool fmpm = s.settings.transfer == Transfer::fmpm;
   if (fmpm || s.settings.update != Update::symplectic) scratch.second.resize(s.grid.nodes.size());
   if (fmpm) scratch.third.resize(s.grid.nodes.size());

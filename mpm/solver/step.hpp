@@ -163,6 +163,20 @@ struct Phases {
     }
     scratch.tile[thread].gain2 = most2;
 #pragma omp barrier
+#pragma omp single
+    measure_at_walls();
+  }
+
+  /// What the nodes at the walls gain, beside the others of their blocks.
+  void measure_at_walls() noexcept {
+    scratch.gain2_at_walls = 0.0;
+    const auto raise = [](double& most, double gain2) {
+      if (!(gain2 <= most)) most = gain2;
+    };
+    gains_at_walls(s, scratch.light, scratch.at_walls, [&](std::int32_t node, double gain2) {
+      raise(scratch.gain2_at_walls, gain2);
+      raise(scratch.gain2[node / kBlockNodes<Dim>], gain2);
+    });
   }
 
   /// One thread sees to the walls while the others begin with the tiles that do not touch them.

@@ -51,3 +51,26 @@ TEMPLATE_TEST_CASE("A wide gap takes up changes of volume without a change of pr
             Approx(TestType::elasticity(params).bulk * volumetric).epsilon(1e-6));
   }
 }
+
+TEMPLATE_TEST_CASE("Soil in pieces has no stress until it touches again", "[constitutive]",
+                   MohrCoulomb, DruckerPrager, ResidualStrength) {
+  const auto params = soil<TestType>();
+  const auto constants = TestType::constants(params, 1.0);
+  auto state = TestType::initial_state(params);
+  const Stress<2> sigma{{-1e5, -1e5, -1e5, 500.0}};
+  const auto strained = [&](double gap, double volumetric) {
+    state.gap = gap;
+    const StrainIncrement<2> de{{0.5 * volumetric, 0.5 * volumetric, 0.0, 1e-4}};
+    return update_law<TestType, 2, double>(constants, state, sigma, de, 1e-3);
+  };
+  CHECK(strained(0.5, 0.01).stress == Stress<2>{});
+  CHECK(strained(0.5, 0.01).state.gap == Approx(0.51));
+  CHECK(strained(kApart, 0.01).stress == Stress<2>{});
+  // It closes: shear is carried again before pressure is.
+  CHECK(strained(0.405, -0.01).stress[3] != 0.0);
+  CHECK(strained(0.405, -0.01).state.gap == Approx(0.395));
+  // Control: the law by itself keeps the shear stress however far the soil has opened.
+  state.gap = 0.5;
+  CHECK(TestType::template update<2>(constants, state, sigma, {{0.0, 0.0, 0.0, 1e-4}}).stress[3] !=
+        0.0);
+}

@@ -2,6 +2,7 @@
 
 #include "core/conventions.hpp"
 #include "fem/build_model.hpp"
+#include "mpm/kernels/basis.hpp"
 #include "mpm/run/stiffness.hpp"
 
 #include <algorithm>
@@ -27,7 +28,6 @@ constexpr double kOutputInterval = 0.25;
 constexpr double kUntilTransfer = 0.7;  ///< of a shaking that ends by the rule of the transfer
 constexpr double kSaturatedWave = 700.0, kDryWave = 250.0;  ///< of soil under a dam [m/s]
 constexpr double kTimesOfFall = 35.0;                       ///< sqrt(H/g) until a slide is at rest
-constexpr double kStepOfMpm = 0.45;  ///< h/c in two dimensions, with the usual `courant`
 
 /// Smallest height of an element: its area over its longest side.
 double smallest_height(const QuadMesh& mesh) {
@@ -133,8 +133,8 @@ Work flow_work(const FlowConfig& flow, const MapConfig& map,
   const double across = plane ? 1.0 : flow.extrude->width * map.points_per_cell / map.cell;
   const double points = points_of(map, soil) * across;
   const double rest = kTimesOfFall * std::sqrt(soil.counted.height() / kGravity);
-  const double usual = mpm::StepSettings{}.courant;
-  const double step = kStepOfMpm * flow.cell / wave * flow.courant / usual;
+  const double cells = plane ? mpm::stable_cells<2>(flow) : mpm::stable_cells<3>(flow);
+  const double step = cells * flow.cell / wave * flow.courant;
   return {.seconds = kStart + (plane ? kPerPointStep : kPerPointStep3d) * points *
                                   std::min(flow.end, rest) / step,
           .parallel = kParallel,
