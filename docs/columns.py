@@ -1,9 +1,10 @@
-"""Writes the table of dry columns in docs/theory/verification-mpm.md and docs/images/columns.png.
+"""Writes the tables of columns in docs/theory/verification-mpm.md and docs/images/columns.png.
 
-    flowslide verify mpm/columns --json > columns.json
+    flowslide verify mpm/columns mpm/bui mpm/undrained --json > columns.json
     python3 docs/columns.py columns.json
 
-Needs Matplotlib. Text outside the marked table is left alone.
+The rows of cases that were run replace what the tables hold of these cases; those of others stay,
+since some take long. The figure needs Matplotlib. Text outside the marked tables is left alone.
 """
 import csv
 import json
@@ -11,41 +12,74 @@ import pathlib
 import re
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-
 DOCS = pathlib.Path(__file__).resolve().parent
 EXPERIMENTS = DOCS.parent / "fixtures/columns/experiments.csv"
 PAGE = DOCS / "theory/verification-mpm.md"
 
 
-def table(rows):
-    lines = ["| case | quantity | experiment | here | off | within 10 % |", "|---|---|---|---|---|---|"]
-    for r in rows:
-        case, quantity = r["name"].removeprefix("mpm/columns_").split("/", 1)
-        if r["target"] == 0:  # change at the last halving
-            lines.append(f"| {case} | {quantity} | | | {100 * r['value']:+.1f} % | |")
+DRY = ("columns", r"mpm/columns_(?P<case>[a-z]+)/(?P<quantity>.*)", "experiment")
+SLUMPS = ("slumps", r"mpm/(?P<case>bui|undrained)_column/(?P<quantity>.*)", "target")
+
+
+def line(case, quantity, row):
+    seconds = f"{row['core_seconds']:.0f} |"
+    if "halving" in quantity and row["target"] == 0:  # change at a halving of the cell
+        within = "yes" if row["pass"] else "no"
+        return f"| {case} | {quantity} | | | {100 * row['value']:+.1f} % | {within} | {seconds}"
+    if row["target"] == 0:  # an error
+        within = "yes" if row["pass"] else "no"
+        return f"| {case} | {quantity} | | {row['value']:.2g} | | {within} | {seconds}"
+    digits = 3 if row["unit"] == "m" else 2
+    off = 100 * (row["value"] / row["target"] - 1)
+    within = "control" if "control" in quantity else "yes" if row["pass"] else "no"
+    numbers = f"{row['target']:.{digits}f} | {row['value']:.{digits}f} | {off:+.0f} %"
+    return f"| {case} | {quantity} | {numbers} | {within} | {seconds}"
+
+
+def block(text, kind):
+    name = kind[0]
+    return re.search(rf"<!-- {name} -->\n(.*)<!-- end {name} -->", text, re.S)
+
+
+def update(text, rows, kind):
+    name, pattern, known = kind
+    matches = [(re.fullmatch(pattern, r["name"]), r) for r in rows]
+    new, seconds = [], 0.0
+    for m, r in matches:
+        if not m:
             continue
-        off = 100 * (r["value"] / r["target"] - 1)
-        within = "control" if "control" in quantity else "yes" if r["pass"] else "no"
-        lines.append(
-            f"| {case} | {quantity} | {r['target']:.2f} | {r['value']:.2f} | {off:+.0f} % | {within} |"
-        )
-    return "\n".join(lines)
+        seconds += r["core_seconds"]
+        if m["quantity"].endswith("motion_left"):  # its time is the run's, which the next row shows
+            continue
+        new.append((m["case"], line(m["case"], m["quantity"], {**r, "core_seconds": seconds})))
+        seconds = 0.0
+    found = block(text, kind)
+    cases = {c for c, _ in new}
+    kept = [n for n in found[1].splitlines()[2:] if n.split("|")[1].strip() not in cases]
+    order = ("short", "plane", "round", "channel", "bui", "undrained")
+    lines = [(n.split("|")[1].strip(), n) for n in kept] + new
+    lines.sort(key=lambda entry: order.index(entry[0]))
+    head = [f"| case | quantity | {known} | here | off | holds | core s |", "|---|---|---|---|---|---|---|"]
+    body = "\n".join(head + [n for _, n in lines])
+    return f"{text[:found.start()]}<!-- {name} -->\n{body}\n<!-- end {name} -->{text[found.end():]}"
 
 
-def points(rows, case, quantity):
+def points(text, case, quantity):
     found = []
-    for r in rows:
-        match = re.fullmatch(rf"mpm/columns_{case}/a([0-9.]+)_{quantity}", r["name"])
-        if match:
-            found.append((float(match[1]), r["value"]))
+    for row in block(text, DRY)[1].splitlines()[2:]:
+        cells = [c.strip() for c in row.split("|")]
+        match = re.fullmatch(rf"a([0-9.]+)_{quantity}", cells[2])
+        if cells[1] == case and match:
+            found.append((float(match[1]), float(cells[4])))
     return sorted(found)
 
 
-def draw(rows):
+def draw(text):
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
     figure, axes = plt.subplots(1, 2, figsize=(7.2, 3.2))
     fits = list(csv.DictReader(EXPERIMENTS.open()))
     for axis, quantity in zip(axes, ("front", "height")):
@@ -64,10 +98,10 @@ def draw(rows):
             ("channel", "s", "channel, beads, mu(I)"),
             ("round", "^", "round, mu(I)"),
         ):
-            found = points(rows, case, quantity)
+            found = points(text, case, quantity)
             if found:
                 axis.plot(*zip(*found), marker, color="k", mfc="none", ms=5, label=label)
-        found = points(rows, "plane", "coulomb_plane_" + quantity)
+        found = points(text, "plane", "coulomb_plane_" + quantity)
         if found:
             axis.plot(*zip(*found), "x", color="0.5", label="plane, Coulomb, asin(tan)")
         axis.set(xscale="log", yscale="log", xlabel="height / length", title=quantity)
@@ -80,10 +114,11 @@ def draw(rows):
 
 def main():
     rows = json.loads(pathlib.Path(sys.argv[1]).read_text())
-    draw(rows)
     text = PAGE.read_text()
-    block = f"<!-- columns -->\n{table(rows)}\n<!-- end columns -->"
-    PAGE.write_text(re.sub(r"<!-- columns -->.*<!-- end columns -->", lambda _: block, text, flags=re.S))
+    for kind in (DRY, SLUMPS):
+        text = update(text, rows, kind)
+    PAGE.write_text(text)
+    draw(text)
 
 
 main()

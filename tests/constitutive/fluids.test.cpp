@@ -91,3 +91,18 @@ TEST_CASE("Granular flow settles on mu(I)", "[constitutive]") {
   CHECK(steady_shear<MuI>(p, rate, start) == Approx(mu * pressure).epsilon(1e-6));
   CHECK(mu > 1.0001 * p.mu_static);
 }
+
+TEST_CASE("Grains that have parted carry nothing, sheared or pressed for a step",
+          "[constitutive]") {
+  const auto c = MuI::constants(sample_params<MuI>(), 1.0);
+  MuI::State state;
+  state.gap = 0.5;
+  for (const double closing : {0.0, 0.1, 0.38}) {
+    const auto r = update<MuI, 2>(c, state, Stress<2>{}, {{-closing, 0.0, 0.0, 0.2}}, 1e-4);
+    for (int i = 0; i < 4; ++i) CHECK(std::abs(r.stress[i]) < 1e-14 * c.elastic.bulk);
+    CHECK(r.state.gap == Approx(0.5 - closing));
+  }
+  // Pressed by more than was open they carry again.
+  const auto r = update<MuI, 2>(c, state, Stress<2>{}, {{-0.6, 0.0, 0.0, 0.2}}, 1e-4);
+  CHECK(r.stress[1] < 0.0);
+}

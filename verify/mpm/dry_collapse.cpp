@@ -13,16 +13,15 @@ constexpr double kDensity = 1600.0, kGrains = 2500.0;  ///< of the bulk and of g
 /// Young's modulus over the vertical stress at the foot: a quarter or ten times as much moves the
 /// front by 3 %.
 constexpr double kStiffness = 127.0;
-constexpr double kRise = 0.26, kInertial = 0.279;  ///< of mu_i, glass beads: Jop et al. (2006)
-constexpr double kLongest = 12.5, kLook = 0.3;     ///< [sqrt(height / g)]
+constexpr double kLongest = 12.5, kLook = 0.3;  ///< [sqrt(height / g)]
 
 MaterialSpec grains(const DryColumn& c, double height) {
   std::map<std::string, double> v{{"youngs_modulus", kStiffness * kDensity * kGravity * height},
                                   {"poisson_ratio", c.poisson_ratio}};
   if (c.law == Friction::rate) {
     v.merge(std::map<std::string, double>{{"mu_static", c.friction},
-                                          {"mu_limit", c.friction + kRise},
-                                          {"inertial_number", kInertial},
+                                          {"mu_limit", c.friction + c.rise},
+                                          {"inertial_number", c.inertial},
                                           {"grain_size", c.grain},
                                           {"grain_density", kGrains}});
     return material("mu_i", v);
@@ -119,7 +118,7 @@ Deposit run(DryColumn c, int cells) {
   config.transfer = c.transfer;
   config.gravity = kGravity;
   config.ground.surface = {{0.0, 0.0}};
-  config.ground.friction = c.friction;
+  config.ground.friction = is_set(c.ground) ? c.ground : c.friction;
   config.left_roller = 0.0;
   if (c.shape == Shape::channel) config.side_rollers = {{0.0, c.width}};
   if (c.shape == Shape::round) config.side_rollers = {{0.0, 50.0 * c.length}};
@@ -150,7 +149,7 @@ DryColumn beads(double aspect) {
   return {.shape = Shape::channel,
           .aspect = aspect,
           .width = 0.045,
-          .friction = tan(22.0 * kPi / 180.0),
+          .friction = tan(27.4 * kPi / 180.0),
           .wall_friction = tan(24.8 * kPi / 180.0),
           .grain = 1.15e-3};
 }

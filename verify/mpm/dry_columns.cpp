@@ -1,5 +1,6 @@
 #include "verify/mpm/dry_columns.hpp"
 
+#include "core/conventions.hpp"
 #include "core/elementary.hpp"
 #include "verify/mpm/list.hpp"
 
@@ -95,13 +96,25 @@ std::vector<Check> verify_columns_round(std::string_view name) {
 
 std::vector<Check> verify_columns_channel(std::string_view name) {
   CheckList checks(name);
-  for (const double a : {0.5, 1.0, 2.0}) {
+  const auto against = [&](double a, const Deposit& d) {
     const std::string at = fmt::format("a{:g}", a);
-    compare(checks, at, collapse(beads(a), 12), 1.2 * a, plane_height(a));
-  }
+    compare(checks, at, d, 1.2 * a, plane_height(a));
+    checks.near(at + "_edge", d.edge, 1.2 * a, kShare * 1.2 * a);
+  };
+  against(0.5, collapse(beads(0.5), 12));
+  const Deposit coarse = collapse(beads(1.0), 12), fine = collapse(beads(1.0), 24);
+  against(1.0, fine);
+  checks.error("a1_front_halving", fine.front / coarse.front - 1.0, 0.05);
+  checks.error("a1_height_halving", fine.height / coarse.height - 1.0, 0.05);
+  against(2.0, collapse(beads(2.0), 12));
+  // The angle at which a slide stops, in place of that at which it starts; and no friction on the
+  // sides.
+  DryColumn repose = beads(1.0);
+  repose.friction = tan(kBeadsStop * kPi / 180.0);
+  checks.at_least("control_a1_repose", collapse(repose, 12).front, (1.0 + kShare) * 1.2);
   DryColumn smooth = beads(1.0);
   smooth.wall_friction = 0.0;
-  checks.at_least("control_a1_smooth_walls", collapse(smooth, 12).front, 1.2 * 1.2);
+  checks.at_least("control_a1_smooth_walls", collapse(smooth, 12).front, 1.2 * coarse.front);
   return checks.take();
 }
 

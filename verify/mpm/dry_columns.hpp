@@ -1,4 +1,5 @@
 #pragma once
+#include "core/check.hpp"
 #include "mpm/kernels/scheme.hpp"
 
 /// Scenes of verify/mpm/dry_columns.cpp.
@@ -21,16 +22,21 @@ struct DryColumn {
   double aspect = 1.0;         ///< height over length or radius
   double length = 0.1;         ///< [m]
   double width = 0.0;          ///< of the channel [m]
-  double friction = 0.0;       ///< tan of the angle measured; of the ground too [-]
+  double friction = 0.0;       ///< tan of the angle measured [-]
+  double ground = kUnset;      ///< friction of the ground; unset: that of the grains [-]
   double wall_friction = 0.0;  ///< of the channel's sides [-]
   double grain = 0.0;          ///< [m]
+  double rise = 0.26;          ///< of friction in fast flow, and where half of it is reached, for
+  double inertial = 0.279;     ///< mu_i: glass beads, Jop et al. (2006)
   double poisson_ratio = 0.3;
   Transfer transfer = Transfer::aflip;
 };
 
 /// Sand of 1 mm at 30 degrees, 0.1 m long.
 DryColumn sand(double aspect);
-/// The glass beads of Lajeunesse et al. (2005) in a channel of 45 mm.
+/// Angle at which a slide of the beads of Lajeunesse et al. (2005) stops [deg].
+inline constexpr double kBeadsStop = 22.0;
+/// These beads in their channel of 45 mm, with the angle at which a slide starts.
 DryColumn beads(double aspect);
 
 /// Kinetic energy, of the largest, at which a collapse is at rest. Those that are not by then are
