@@ -41,7 +41,8 @@ constexpr Stress<Dim, T> hooke(const Elasticity& e, const Stress<Dim, T>& s,
 }
 
 /// The update of law M. Laws whose stress depends on the rate of strain say so with
-/// `rate_dependent` and take the time step [s] as well. Soil that has come apart has no stress.
+/// `rate_dependent` and take the time step [s] as well. Soil that has come apart has no stress, but
+/// for laws that need some pressure to work with and say so with `keeps_pressure`.
 template <class M, int Dim, class T>
 [[nodiscard]] StressUpdate<typename M::template StateOf<T>, Dim, T> update_law(
     const typename M::Constants& c, const typename M::template StateOf<T>& state,
@@ -52,7 +53,8 @@ template <class M, int Dim, class T>
     else
       return M::template update<Dim>(c, state, sigma, de);
   }();
-  if constexpr (requires { result.state.gap; }) {
+  if constexpr (
+      requires { result.state.gap; } && !requires { M::keeps_pressure; }) {
     const auto apart = result.state.gap > T(kApart);
     for (int i = 0; i < kVoigt<Dim>; ++i)
       result.stress[i] = select(apart, T(0.0), result.stress[i]);

@@ -16,7 +16,8 @@ namespace flowslide {
 /// as mohr_coulomb.hpp; p > 0 in compression here. docs/theory/modified-cam-clay.md
 struct ModifiedCamClay {
   static constexpr std::string_view name = "modified_cam_clay";
-  static constexpr bool per_point = true;  ///< the return is solved by iteration
+  static constexpr bool per_point = true;       ///< the return is solved by iteration
+  static constexpr bool keeps_pressure = true;  ///< stiffness goes with pressure: minimum_pressure
   struct Params {
     double critical_ratio = kUnset;          ///< M = q/p at the critical state [-]
     double compression_index = kUnset;       ///< lambda* [-]

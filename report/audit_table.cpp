@@ -76,7 +76,7 @@ void collect(const std::string& prefix, const Json& object, std::string& rows,
 
 }  // namespace
 
-std::string cell(std::string text) {
+std::string cell(std::string_view text) {
   std::string out;
   for (const char c : text) {
     if (c == '|') out += '\\';

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace flowslide {
 
@@ -10,6 +11,6 @@ namespace flowslide {
 std::string audit_tables(const std::filesystem::path& audit);
 
 /// Text safe inside a cell of a Markdown table.
-std::string cell(std::string text);
+std::string cell(std::string_view text);
 
 }  // namespace flowslide

@@ -10,7 +10,7 @@ namespace flowslide {
 namespace {
 
 /// Replaces pairs of a mark by a tag; a mark without its like stays what it is.
-std::string paired(std::string text, std::string_view mark, std::string_view tag) {
+std::string paired(const std::string& text, std::string_view mark, std::string_view tag) {
   std::string out;
   for (std::size_t at = 0;;) {
     const std::size_t open = text.find(mark, at);

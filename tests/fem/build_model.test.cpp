@@ -65,7 +65,8 @@ TEST_CASE("A pond presses on the surface and sets its pore pressure", "[fem]") {
   CHECK(out_of_balance(r) < 1e-12);
   // effective stress does not know of the pond
   for (std::size_t e = 0; e < r.state.stress.size(); ++e) {
-    const double depth = 3.5 - static_cast<double>(r.layout.order[e] / 4);
+    const auto row = r.layout.order[e] / 4;
+    const double depth = 3.5 - static_cast<double>(row);
     CHECK(r.state.stress[e][1] == Approx(-(1900.0 - 1000.0) * 9.81 * depth).epsilon(1e-9));
   }
 }
@@ -81,7 +82,8 @@ TEST_CASE("Free-field columns know the pond above them", "[fem]") {
     CHECK(out_of_balance(r) < 1e-12);
     for (std::size_t e = 0; e < r.state.stress.size(); ++e) {
       if (r.layout.order[e] >= 16) continue;
-      const double depth = 3.5 - static_cast<double>(r.layout.order[e] / 4);
+      const auto row = r.layout.order[e] / 4;
+      const double depth = 3.5 - static_cast<double>(row);
       CHECK(r.state.stress[e][1] == Approx(-900.0 * 9.81 * depth).epsilon(1e-9));
       CHECK(r.state.stress[e][3] == Approx(0.0).margin(1e-4));
     }

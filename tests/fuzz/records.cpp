@@ -13,7 +13,7 @@ namespace flowslide::fuzz {
 namespace {
 
 /// A JSON object whose last brace the input leaves out.
-std::string sealed(std::string text) {
+std::string sealed(const std::string& text) {
   const std::string digest = sha256(text);
   return text + ",\n  \"sha256\": \"" + digest + "\"\n}\n";
 }

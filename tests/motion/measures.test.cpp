@@ -104,11 +104,12 @@ TEST_CASE("what is no motion is not measured", "[motion]") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const GroundMotion good{.dt = 0.01, .acceleration = {0.0, 1.0, 0.0}, .origin = "m"};
   CHECK_NOTHROW(check(good));
-  for (GroundMotion bad : {GroundMotion{.dt = nan, .acceleration = {1.0, 2.0}, .origin = "m"},
-                           GroundMotion{.dt = 0.0, .acceleration = {1.0, 2.0}, .origin = "m"},
-                           GroundMotion{.dt = 0.01, .acceleration = {1.0}, .origin = "m"},
-                           GroundMotion{.dt = 0.01, .acceleration = {0.0, 0.0}, .origin = "m"},
-                           GroundMotion{.dt = 0.01, .acceleration = {1.0, nan}, .origin = "m"}})
+  for (const GroundMotion& bad :
+       {GroundMotion{.dt = nan, .acceleration = {1.0, 2.0}, .origin = "m"},
+        GroundMotion{.dt = 0.0, .acceleration = {1.0, 2.0}, .origin = "m"},
+        GroundMotion{.dt = 0.01, .acceleration = {1.0}, .origin = "m"},
+        GroundMotion{.dt = 0.01, .acceleration = {0.0, 0.0}, .origin = "m"},
+        GroundMotion{.dt = 0.01, .acceleration = {1.0, nan}, .origin = "m"}})
     CHECK_THROWS_AS(measure(bad), InputError);
   // Picoseconds: the transform would take 300 TB.
   const GroundMotion fast{.dt = 1e-12, .acceleration = {0.0, 1.0, 0.0}, .origin = "m"};

@@ -32,7 +32,7 @@ constexpr const char* kGrid =
     "ncols 4\nnrows 3\nxllcorner 100\nyllcorner 50\ncellsize 10\nNODATA_value -9999\n"
     "1 2 3 4\n5 6 7 8\n9 10 11 -9999\n";
 
-HeightField read_text(std::string text, const MapPlace& place = {}) {
+HeightField read_text(const std::string& text, const MapPlace& place = {}) {
   const Scratch folder;
   std::ofstream(folder / "valley.asc") << text;
   return read_height_field(folder / "valley.asc", place);

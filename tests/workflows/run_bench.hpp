@@ -59,7 +59,7 @@ struct RunBench {
     run_workflow(load_watched(set), {.folder = out, .redo = redo}, events);
   }
   /// Lets `act` happen when a stage has begun, before it reads anything.
-  void during(const std::string& stage, std::function<void()> act) {
+  void during(const std::string& stage, const std::function<void()>& act) {
     meanwhile = [=](const std::string& name) {
       if (name == stage) act();
     };
