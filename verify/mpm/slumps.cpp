@@ -53,6 +53,13 @@ double front(const Points<2>& p, double cell, double share) {
   return at + 0.25 * cell;
 }
 
+/// Level above which 0.5 % of the mass lies, as the program reports it.
+double top(const Points<2>& p) {
+  std::vector<Place> places;
+  for (std::size_t q = 0; q < p.size(); ++q) places.push_back({p.x[1][q], p.mass[q]});
+  return height(places);
+}
+
 /// Where, seen from the front, the layer becomes `thickness` thick: volume in strips over their
 /// width, with a straight line between their middles.
 double end_of_layer(const Points<2>& p, double density, double thickness) {
@@ -167,7 +174,7 @@ ClayDeposit collapse(const Clay& clay) {
     if (advance < 0.002) break;
   }
   d.front = front(trial.sim.points, h, 0.005) / length;
-  d.height = surface(trial.sim.points, 0.5 * h, h) / height;
+  d.height = top(trial.sim.points) / height;
   return d;
 }
 

@@ -40,7 +40,7 @@ struct Clay {
 struct ClayDeposit {
   double foremost = 0.0;  ///< beyond it lies 0.2 % of the mass; over the first length
   double front = 0.0;     ///< 0.5 %
-  double height = 0.0;    ///< at the wall, over the first height
+  double height = 0.0;    ///< 0.5 % lies above, over the first height
 };
 
 ClayDeposit collapse(const Clay& clay);
