@@ -27,8 +27,8 @@ template <class T>
 }
 
 /// Soil that has opened by more is in pieces that do not touch, and free of stress until the gap
-/// has closed to this again. It is twice the largest strain_limit that a run accepts, so that no
-/// step closes it at once.
+/// has closed to this again. It is twice the largest strain_limit that a run accepts: a step that
+/// keeps its limit does not close it at once.
 inline constexpr double kApart = 0.4;
 
 /// The modulus of closed soil as the time step sees it, which multiplies it by the present volume.
