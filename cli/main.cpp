@@ -1,5 +1,6 @@
 #include "cli/command.hpp"
 #include "cli/short_waits.hpp"
+#include "cli/signals.hpp"
 #include "cli/terminal.hpp"
 #include "config/yaml.hpp"
 #include "core/check.hpp"
@@ -45,8 +46,12 @@ void correct_exit_code() {
 
 void flush_output() {
   std::cout.flush();
+  constexpr const char* kLost =
+      "{}: cannot be written (the disk is full, or who reads it has gone) what a run had to say is "
+      "in its result.json too";
   if (std::fflush(stdout) != 0 || std::ferror(stdout))
-    throw flowslide::FileError("standard output: cannot be written (the disk may be full)");
+    throw flowslide::FileError(fmt::format(kLost, "standard output"));
+  if (std::ferror(stderr)) throw flowslide::FileError(fmt::format(kLost, "standard error"));
 }
 
 /// A first word that is no command, with the nearest that is one.
@@ -132,6 +137,7 @@ int run_and_report(int argc, char** argv) {
 int main(int argc, char** argv) {
   std::atexit(correct_exit_code);
   flowslide::cli::prefer_short_waits(argv);
+  flowslide::cli::refuse_by_return();
   int code = kNoResources;
   try {
     code = run_and_report(argc, argv);

@@ -18,7 +18,16 @@ const std::atomic<bool>& stop_on_signal(Again again) {
   action.sa_flags = (again == Again::ends ? static_cast<int>(SA_RESETHAND) : 0) | SA_RESTART;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  // A terminal that closes may say so twice, and nohup asks not to hear of it.
+  struct sigaction before {};
+  sigaction(SIGHUP, nullptr, &before);
+  action.sa_flags = SA_RESTART;
+  if (before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
+  // Whoever reads the output has gone: the next write says so, and what was begun is put in order.
+  ::signal(SIGPIPE, SIG_IGN);
   return stop;
 }
+
+void refuse_by_return() { ::signal(SIGXFSZ, SIG_IGN); }
 
 }  // namespace flowslide::cli

@@ -42,16 +42,17 @@ double run_to_end(R& run, const std::filesystem::path& checkpoint, const Progres
   double interval = kCheckpointSeconds;
   while (!run.ended()) {
     const bool recorded = run.step();
+    // Before the report, which fails where the terminal has gone.
+    if (!run.ended() && progress.should_stop()) {
+      run.save(since(start));
+      throw Interrupted("interrupted at " + run.place() +
+                        "; the same command continues from there");
+    }
     if (recorded || run.ended() || since(last_report) > kReportSeconds) {
       progress.report(run.ended() ? Share(1.0) : run.share(), run.text());
       last_report = Clock::now();
     }
     if (run.ended()) break;
-    if (progress.should_stop()) {
-      run.save(since(start));
-      throw Interrupted("interrupted at " + run.place() +
-                        "; the same command continues from there");
-    }
     if (since(last_save) > interval) {
       const Clock::time_point before = Clock::now();
       run.save(since(start));

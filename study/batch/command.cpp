@@ -30,6 +30,8 @@ std::optional<CommandEnd> run_command(const std::vector<std::string>& words,
     if (::chdir(folder.c_str()) != 0) return kNoFolder;
     ::signal(SIGINT, SIG_DFL);
     ::signal(SIGTERM, SIG_DFL);
+    ::signal(SIGPIPE, SIG_DFL);
+    ::signal(SIGXFSZ, SIG_DFL);
     ::execvp(arguments[0], arguments.data());
     return errno == ENOENT ? kNoProgram : kNoFolder;
   });
