@@ -108,6 +108,10 @@ void check_friction(std::string_view law, const Params& p) {
            "{}: residual friction angle {:.1f} deg exceeds the peak {:.1f} deg (softening would "
            "harden) swap them?",
            law, p.residual_friction_angle.value_or(0.0) * degrees, p.friction_angle * degrees);
+  validate(!p.residual_cohesion || *p.residual_cohesion <= p.cohesion,
+           "{}: residual cohesion {:g} kPa exceeds the peak {:g} kPa (softening would harden) swap "
+           "them?",
+           law, p.residual_cohesion.value_or(0.0) * 1e-3, p.cohesion * 1e-3);
   validate(p.dilation_angle <= p.friction_angle,
            "{}: dilation angle {:.1f} deg exceeds the friction angle {:.1f} deg (shearing would "
            "create energy) use a smaller one",

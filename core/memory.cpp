@@ -17,11 +17,11 @@ double number_in(const char* path) {
   return file >> value ? value : kUnset;
 }
 
-double of_machine() {
+double of_machine(std::string_view which) {
   std::ifstream file("/proc/meminfo");
   std::string name;
   for (double value = 0.0; file >> name >> value; file.ignore(80, '\n'))
-    if (name == "MemAvailable:") return value * 1024.0;
+    if (name == which) return value * 1024.0;
   return std::numeric_limits<double>::infinity();
 }
 
@@ -30,7 +30,12 @@ double of_machine() {
 double available_memory() {
   const double group =
       number_in("/sys/fs/cgroup/memory.max") - number_in("/sys/fs/cgroup/memory.current");
-  const double machine = of_machine();
+  const double machine = of_machine("MemAvailable:");
+  return is_set(group) ? std::min(group, machine) : machine;
+}
+
+double machine_memory() {
+  const double group = number_in("/sys/fs/cgroup/memory.max"), machine = of_machine("MemTotal:");
   return is_set(group) ? std::min(group, machine) : machine;
 }
 

@@ -239,6 +239,8 @@ void advance(Simulation<Dim>& s, StepScratch<Dim>& scratch) {
   s.balance.grid.add(grid);
   s.balance.power_start += stress.power_start;
   s.balance.power_end += stress.power_end;
+  // Of soil that sleeps there are no waves; its step is that of when it fell asleep.
+  if (!(stress.max_wave2 > 0.0)) stress.max_wave2 = s.last.max_wave2;
   s.last = stress;
   s.drift += std::sqrt(stress.max_speed2) * s.dt;
   for (const TileScratch<Dim>& t : scratch.tile)

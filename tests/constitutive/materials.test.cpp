@@ -92,6 +92,13 @@ TEST_CASE("Parameters that contradict each other are refused", "[constitutive]")
     p.residual_friction_angle = 31.0 * kDegree;
     CHECK_THAT(message_of([&] { check(p); }), Contains("31.0 deg exceeds the peak 30.0 deg"));
   }
+  SECTION("hardening of cohesion") {
+    p.cohesion = 2e3;
+    p.residual_cohesion = 2e3;
+    CHECK_NOTHROW(check(p));  // control
+    p.residual_cohesion = 1e6;
+    CHECK_THAT(message_of([&] { check(p); }), Contains("1000 kPa exceeds the peak 2 kPa"));
+  }
   SECTION("dilation") {
     p.dilation_angle = 40.0 * kDegree;
     CHECK_THAT(message_of([&] { check(p); }), Contains("dilation angle 40.0 deg"));

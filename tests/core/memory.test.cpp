@@ -8,6 +8,7 @@ using namespace flowslide;
 
 TEST_CASE("What does not fit in memory is refused with the numbers", "[core]") {
   CHECK(available_memory() > 1e6);
+  CHECK(machine_memory() > available_memory());
   CHECK_NOTHROW(need_memory(1.0, "a stone", "throw it"));
   try {
     need_memory(1e18, "a mountain", "move it");

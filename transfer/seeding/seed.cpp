@@ -15,9 +15,6 @@ namespace flowslide {
 namespace {
 
 constexpr double kMaxCells = 5e7;
-/// What a point takes while it is seeded and mapped: fragments, pieces, weights of the stress,
-/// fields [bytes].
-constexpr double kBytesPerPoint = 1500.0;
 constexpr double kMostRows = 1e9;  ///< of the lattice, counted from its origin
 
 /// The part of one element in one lattice cell.
@@ -205,7 +202,7 @@ void check_lattice(const SeedDomain& domain, const LatticeOptions& options) {
            "memory). Use a "
            "larger cell or fewer points per cell",
            options.spacing, cells_expected, kMaxCells);
-  need_memory(cells_expected * kBytesPerPoint,
+  need_memory(cells_expected * kBytesPerSeededPoint,
               fmt::format("a lattice of {:.3g} m, {:.2g} points,", options.spacing, cells_expected),
               "use a larger cell or fewer points per cell");
   for (const Vec2& p : domain.positions)

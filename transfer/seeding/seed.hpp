@@ -12,6 +12,10 @@
 /// docs/theory/transfer.md, "Seeding".
 namespace flowslide {
 
+/// What a point takes while it is seeded and mapped: fragments, pieces, weights of the stress,
+/// fields [bytes].
+inline constexpr double kBytesPerSeededPoint = 1500.0;
+
 /// The part of a deformed mesh that becomes material points.
 struct SeedDomain {
   const QuadMesh& mesh;

@@ -1,8 +1,8 @@
 #include "core/check.hpp"
+#include "transfer/seeding/seed.hpp"
 #include "workflows/stages/cross_checks.hpp"
 
 #include <cmath>
-#include <unistd.h>
 
 namespace flowslide {
 namespace {
@@ -11,15 +11,10 @@ namespace {
 constexpr double kFewestCells = 4.0;
 constexpr double kFewCells = 12.0;
 
-// What a point takes at most while it is made and run: its fields twice, its pieces, its nodes.
-constexpr double kBytesPerPoint2d = 800.0, kBytesPerPoint3d = 1500.0;
+// What a point takes at most while it is run in three dimensions: its fields twice, its nodes.
+constexpr double kBytesPerPoint3d = 1500.0;
 
 }  // namespace
-
-double physical_memory() {
-  return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
-         static_cast<double>(::sysconf(_SC_PAGESIZE));
-}
 
 void check_cells(const FlowConfig& flow, const Soil& soil, Findings& found) {
   if (soil.counted.empty()) return;
@@ -74,7 +69,7 @@ void check_memory(const MapConfig& map, const Soil& soil, double width, double m
   const double per_metre = map.points_per_cell / map.cell;
   const bool plane = std::isnan(width);
   const double points = soil.area * per_metre * per_metre * (plane ? 1.0 : width * per_metre);
-  const double bytes = points * (plane ? kBytesPerPoint2d : kBytesPerPoint3d);
+  const double bytes = points * (plane ? kBytesPerSeededPoint : kBytesPerPoint3d);
   if (bytes > memory)
     found.errors.push_back(fmt::format(
         "cell: {:g} m makes about {:.2g} points, which take about {:.2g} GB (this machine has "

@@ -60,18 +60,21 @@ void check_direction(const Soil& soil, Findings& found) {
          e.right, e.left);
 }
 
-void check_friction_and_end(const FlowConfig& flow, Findings& found) {
-  constexpr double kSteepest = 1.5;  // tan 56 deg
-  if (flow.ground.friction > kSteepest)
-    warn(found,
-         "ground.friction: {:g} is more than ground has: it is a coefficient, the tangent of an "
-         "angle.",
-         flow.ground.friction);
-  if (flow.end < flow.rest.window)
-    warn(found,
-         "end: {:g} s is before rest.window has passed, {:g} s: the run cannot come to rest, and "
-         "its runout is a lower bound.",
-         flow.end, flow.rest.window);
+/// Soil behind an absorbing plane has nothing that holds it.
+void check_absorbing(const FlowConfig& flow, const Soil& soil, Findings& found) {
+  const AbsorbingSettings& a = flow.absorbing;
+  const auto refuse_if = [&](const char* side, const std::optional<double>& at, auto beyond) {
+    if (!at) return;
+    const auto c = std::find_if(soil.centres.begin(), soil.centres.end(), beyond);
+    if (c != soil.centres.end())
+      refuse(found,
+             "absorbing.{}: {:g} m lies inside the soil, as there is soil beyond it at ({:.4g}, "
+             "{:.4g}) m (nothing would hold it) move the plane or the box of the transfer",
+             side, *at, (*c)[0], (*c)[1]);
+  };
+  refuse_if("left", a.left, [&](const Vec2& c) { return c[0] < *a.left; });
+  refuse_if("right", a.right, [&](const Vec2& c) { return c[0] > *a.right; });
+  refuse_if("bottom", a.bottom, [&](const Vec2& c) { return c[1] < *a.bottom; });
 }
 
 }  // namespace
@@ -90,6 +93,8 @@ Soil soil_of(const SectionMesh& section, const MapConfig& config,
     const auto found = counts.find(mesh.element_material[e]);
     if (found == counts.end()) continue;
     const std::array<Vec2, 4> quad = corners(mesh, mesh.nodes, e);
+    if (found->second)
+      for (const Vec2& p : quad) add(soil.uncut, p);
     const Vec2 centre = centroid(quad);
     const bool inside = centre[0] > box.xmin && centre[0] < box.xmax && centre[1] > box.ymin &&
                         centre[1] < box.ymax;
@@ -117,7 +122,7 @@ void check_toe(double toe, const FlowConfig& flow, const Soil& soil, Findings& f
            "than {:g} times its height of {:g} m (nothing would pass it and the runout would be 0 "
            "whatever happens) give the x of the toe of the section",
            toe, beyond, e.right, kFarthest, e.height());
-  else if (beyond > std::max(e.height(), 2.0 * flow.cell))
+  else if (beyond > std::max(0.2 * e.height(), 2.0 * flow.cell))
     warn(found,
          "toe: x = {:g} m lies {:g} m beyond the downstream end of the soil at x = {:g} m. The "
          "runout is counted from there: a flow of up to {:g} m will be reported as 0.",
@@ -133,6 +138,20 @@ void check_toe(double toe, const FlowConfig& flow, const Soil& soil, Findings& f
          "toe: x = {:g} m lies {:g} m inside the soil, which ends at x = {:g} m: so much counts as "
          "runout before anything moves.",
          toe, -beyond, e.right);
+}
+
+void check_box(const MapConfig& map, const Soil& soil, Findings& found) {
+  if (soil.counted.empty()) return;
+  if (soil.counted.right < soil.uncut.right - 0.5 * map.cell)
+    warn(found,
+         "box.right: x = {:g} m cuts through the soil that counts for the runout, which goes on to "
+         "x = {:g} m: what lies beyond is not there to hold it back.",
+         soil.counted.right, soil.uncut.right);
+  if (soil.counted.top < soil.uncut.top - 0.5 * map.cell)
+    warn(found,
+         "box.top: y = {:g} m cuts through the soil that counts for the runout, which is {:g} m "
+         "higher: the weight of what lies above is not there.",
+         soil.counted.top, soil.uncut.top - soil.counted.top);
 }
 
 void check_tractions(const FlowConfig& flow, const Soil& soil, Findings& found) {
@@ -158,7 +177,6 @@ void check_tractions(const FlowConfig& flow, const Soil& soil, Findings& found) 
 
 void check_edges(const FlowConfig& flow, const Soil& soil, Findings& found) {
   const Extent& e = soil.all;
-  check_friction_and_end(flow, found);
   check_direction(soil, found);
   if (e.empty()) return;
   const double slack = 0.5 * flow.cell, toe = soil.counted.right;
@@ -194,6 +212,7 @@ void check_edges(const FlowConfig& flow, const Soil& soil, Findings& found) {
   leaves("right", o.right, o.right && *o.right < e.right - slack);
   leaves("bottom", o.bottom, o.bottom && *o.bottom > e.bottom + slack);
   leaves("top", o.top, o.top && *o.top < e.top - slack);
+  check_absorbing(flow, soil, found);
   if (o.right && *o.right >= e.right - slack && *o.right <= toe)
     refuse(found,
            "outlet.right: x = {:g} m does not lie beyond the toe at x = {:g} m (points count where "
@@ -224,8 +243,6 @@ void check_ground(const FlowConfig& flow, const Soil& soil, Findings& found) {
          "ground.surface: the lowest soil hangs about {:.3g} m above it and will fall before it "
          "flows.",
          lowest);
-  if (std::isfinite(flow.gravity) && !(flow.gravity > 9.7 && flow.gravity < 9.9))
-    warn(found, "gravity: {:g} m/s2 is not that of the earth.", flow.gravity);
 }
 
 }  // namespace flowslide

@@ -84,6 +84,22 @@ void check_shear_strength(const std::string& where, double cohesion, double fric
           kUnitHint, found);
 }
 
+/// Residual strengths that no strain reaches.
+void check_softening_strains(const std::string& where, double peak, double residual,
+                             Findings& found) {
+  constexpr double kMostPeak = 1.0, kMostResidual = 10.0;
+  if (!(residual > peak))
+    found.warnings.push_back(fmt::format(
+        "{}.residual_strain: {:g} is not above peak_strain, {:g}: the soil keeps its peak strength "
+        "for ever, and the residual one is not used.",
+        where, residual, peak));
+  else if (peak > kMostPeak || residual > kMostResidual)
+    found.warnings.push_back(fmt::format(
+        "{}: softening from a strain of {:g} to {:g} comes after any slide has stopped. Strains are "
+        "numbers, not per cent.",
+        where, peak, residual));
+}
+
 void check_law(const std::string& where, const FemMaterialConfig& m, Findings& found) {
   ShakingLaws::each([&]<class M>() {
     const auto& law = m.laws.of<M>();
@@ -93,6 +109,9 @@ void check_law(const std::string& where, const FemMaterialConfig& m, Findings& f
             found);
     if constexpr (requires { law->friction_angle; })
       check_shear_strength(where, law->cohesion, law->friction_angle, found);
+    if constexpr (requires { law->residual_cohesion; })
+      if (law->residual_cohesion || law->residual_friction_angle)
+        check_softening_strains(where, law->peak_strain, law->residual_strain, found);
   });
 }
 
@@ -116,8 +135,14 @@ void check_map_materials(const MapConfig& map, const std::vector<HistoryMaterial
     if (is_set(modulus)) check_stiffness(where, modulus, density, height, found);
     check_shear_strength(where, parameter_of(law, "cohesion"), parameter_of(law, "friction_angle"),
                          found);
-    if (m.liquefied)
-      check_stiffness(where + ".liquefied", m.liquefied->youngs_modulus, density, height, found);
+    if (is_set(parameter_of(law, "residual_cohesion")) ||
+        is_set(parameter_of(law, "residual_friction_angle")))
+      check_softening_strains(where, parameter_of(law, "peak_strain"),
+                              parameter_of(law, "residual_strain"), found);
+    if (!m.liquefied) continue;
+    check_stiffness(where + ".liquefied", m.liquefied->youngs_modulus, density, height, found);
+    if (map.c_soft_ratio < 1.0 && m.liquefied->residual_strain > 0.0)
+      check_softening_strains(where + ".liquefied", 0.0, m.liquefied->residual_strain, found);
   }
 }
 

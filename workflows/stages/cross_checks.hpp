@@ -30,6 +30,7 @@ struct Extent {
 /// What transfer.map makes points of.
 struct Soil {
   Extent all, counted;        ///< counted: what counts for the runout
+  Extent uncut;               ///< what would count without the box
   double area = 0.0;          ///< [m2]
   std::vector<Vec2> centres;  ///< of its elements, inside the box
 };
@@ -41,19 +42,25 @@ Soil soil_of(const SectionMesh& section, const MapConfig& config,
 /// Rollers, outlet and ground of a runout against the soil, and a toe that a report gives.
 void check_toe(double toe, const FlowConfig& flow, const Soil& soil, Findings& found);
 void check_edges(const FlowConfig& flow, const Soil& soil, Findings& found);
+/// What the box of the transfer leaves of the soil that counts.
+void check_box(const MapConfig& map, const Soil& soil, Findings& found);
 /// Loads on the surface against the weight of the soil.
 void check_tractions(const FlowConfig& flow, const Soil& soil, Findings& found);
 void check_ground(const FlowConfig& flow, const Soil& soil, Findings& found);
+/// Gravity, friction, damping, the scheme, and when the flow rests or sleeps.
+void check_scheme(const FlowConfig& flow, const Soil& soil, Findings& found);
+/// The length for which softening strains hold, where soil of the transfer softens.
+void check_softening(const FlowConfig& flow, const MapConfig& map, const Soil& soil,
+                     Findings& found);
 /// Opens the terrain file.
 void check_terrain(const FlowConfig& flow, const Soil& soil, Findings& found);
 
 /// Cells against the height of the soil and those of the transfer; memory for the points.
 void check_cells(const FlowConfig& flow, const Soil& soil, Findings& found);
 void compare_cells(const FlowConfig& flow, const MapConfig& map, Findings& found);
-/// `memory` in bytes; physical_memory() but for tests.
+/// `memory` in bytes; machine_memory() but for tests.
 void check_memory(const MapConfig& map, const Soil& soil, double width, double memory,
                   Findings& found);
-double physical_memory();
 
 void check_densities(const std::vector<HistoryMaterial>& materials, Findings& found);
 /// Stiffness of the materials of a transfer.

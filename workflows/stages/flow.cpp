@@ -1,5 +1,6 @@
 #include "mpm/run/flow.hpp"
 
+#include "core/memory.hpp"
 #include "workflows/stages/cross_checks.hpp"
 #include "workflows/stages/preview.hpp"
 #include "workflows/stages/stage_list.hpp"
@@ -19,6 +20,19 @@ nlohmann::ordered_json stiffness_facts(const StiffnessChoice& choice) {
                              {"mach_number", m.mach_number},
                              {"brittleness", m.brittleness}};
   return {{"fall_m", choice.fall}, {"materials", materials}};
+}
+
+/// A front at a wall, or beyond a plane where the model ends, might have gone farther.
+void warn_of_wall(const FlowConfig& c, double front, std::vector<std::string>& warnings) {
+  const auto look = [&](const char* what, const std::optional<double>& at) {
+    if (at && front > *at - 2.0 * c.cell)
+      warnings.push_back(fmt::format(
+          "{}: the front has come to x = {:.4g} m, and the model ends at {:.4g} m: the runout is "
+          "that of the model, and may be larger. Move it downstream.",
+          what, front, *at));
+  };
+  look("right_roller", c.right_roller);
+  look("absorbing.right", c.absorbing.right);
 }
 
 struct FlowStage {
@@ -47,9 +61,11 @@ struct FlowStage {
     check_edges(config, soil, found);
     check_tractions(config, soil, found);
     check_ground(config, soil, found);
+    check_scheme(config, soil, found);
+    check_softening(config, *p.map, soil, found);
     check_cells(config, soil, found);
     check_terrain(config, soil, found);
-    if (config.extrude) check_memory(*p.map, soil, config.extrude->width, physical_memory(), found);
+    if (config.extrude) check_memory(*p.map, soil, config.extrude->width, machine_memory(), found);
     return p;
   }
   static StageResult run(const RunContext& context, const Config& config, const Inputs& in,
@@ -83,6 +99,7 @@ struct FlowStage {
       facts["stiffness"] = stiffness_facts(*f.stiffness);
       for (std::string& text : told(*f.stiffness)) warnings.push_back(std::move(text));
     }
+    warn_of_wall(config, f.last.front, warnings);
     return {.facts = facts.dump(),
             .publish = {},
             .warnings = warnings,

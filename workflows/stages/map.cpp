@@ -1,3 +1,4 @@
+#include "core/memory.hpp"
 #include "transfer/map/map_state.hpp"
 #include "workflows/stages/cross_checks.hpp"
 #include "workflows/stages/preview.hpp"
@@ -40,7 +41,8 @@ struct MapStage {
     found.work = map_work(config, soil);
     check_map_materials(config, p.materials, soil, found);
     check_map_names(config, *p.section, p.materials, p.zone, found);
-    check_memory(config, soil, kUnset, physical_memory(), found);
+    check_box(config, soil, found);
+    check_memory(config, soil, kUnset, machine_memory(), found);
     return p;
   }
   static StageResult run(const RunContext& context, const Config& config, const Inputs& in,
