@@ -2,6 +2,7 @@
 
 #include "cli/command.hpp"
 #include "cli/terminal.hpp"
+#include "cli/usage.hpp"
 
 #include <memory>
 
@@ -16,7 +17,8 @@ void add_convert(CLI::App& app, Command& action) {
   command->footer("Conversions:" + known_conversions());
   command->add_option("in", options->in, "file or folder")->required();
   command->add_option("out", options->out, "file, whose ending says the format, or folder")
-      ->required();
+      ->required()
+      ->check(output_name());
   command->add_option("--unit", options->format.unit,
                       "acceleration unit of records that do not state it: g, cm/s2, m/s2");
   command->callback([options, &action] {

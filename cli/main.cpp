@@ -2,7 +2,7 @@
 #include "cli/short_waits.hpp"
 #include "cli/signals.hpp"
 #include "cli/terminal.hpp"
-#include "config/yaml.hpp"
+#include "cli/usage.hpp"
 #include "core/check.hpp"
 #include "workflows/engine/program_version.hpp"
 
@@ -54,20 +54,6 @@ void flush_output() {
   if (std::ferror(stderr)) throw flowslide::FileError(fmt::format(kLost, "standard error"));
 }
 
-/// A first word that is no command, with the nearest that is one.
-void check_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
-  const std::string word = argv[1];
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  if (std::find(names.begin(), names.end(), word) != names.end()) return;
-  const auto near = flowslide::nearest(word, names);
-  throw flowslide::InputError(fmt::format("there is no command '{}'. {}", word,
-                                          near
-                                              ? fmt::format("Did you mean 'flowslide {}'?", *near)
-                                              : fmt::format("Known: {}.", fmt::join(names, ", "))));
-}
-
 int run(int argc, char** argv) {
   CLI::App app{"From an earthquake record to the runout of a liquefied tailings dam", "flowslide"};
   app.set_version_flag("--version", flowslide::program_version());
@@ -87,7 +73,7 @@ int run(int argc, char** argv) {
   flowslide::cli::add_schema(app, action);
   flowslide::cli::add_docs(app, action);
   flowslide::cli::add_completion(app, action);
-  check_command(app, argc, argv);
+  flowslide::cli::check_commands(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -96,7 +82,7 @@ int run(int argc, char** argv) {
       flush_output();
       return 0;
     }
-    print_errors(fmt::format("{} ('flowslide --help' lists what there is)", e.what()));
+    print_errors(flowslide::cli::usage_problem(app, argc, argv, e));
     return 2;
   }
   const int code = action();

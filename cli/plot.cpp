@@ -1,5 +1,6 @@
 #include "cli/command.hpp"
 #include "cli/signals.hpp"
+#include "cli/usage.hpp"
 #include "workflows/stages/section_view.hpp"
 #include "workflows/stages/stage_list.hpp"
 
@@ -43,7 +44,8 @@ void add_plot(CLI::App& app, Command& action) {
   CLI::App* command = app.add_subcommand(
       "plot", "Draw section, mesh, water, windows and ground of a workflow, before it runs");
   command->add_option("file", options->file, "workflow, FILE.yaml")->required();
-  command->add_option("--out", options->out, "this file: .png, .svg or .pdf [NAME-section.png]");
+  command->add_option("--out", options->out, "this file: .png, .svg or .pdf [NAME-section.png]")
+      ->check(output_name());
   command->add_option("--python", options->python, "interpreter with Matplotlib [python3]");
   command->add_option("--set", options->overrides, "override a setting, PATH=VALUE")
       ->take_all()

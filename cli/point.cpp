@@ -1,4 +1,5 @@
 #include "cli/command.hpp"
+#include "cli/usage.hpp"
 #include "config/yaml.hpp"
 #include "constitutive/point_config.hpp"
 #include "core/files.hpp"
@@ -41,7 +42,7 @@ void add_point(CLI::App& app, Command& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("point", "Drive one material point along a path");
   command->add_option("file", options->file, "material, stress and path, YAML")->required();
-  command->add_option("--csv", options->csv, "write every step to this file");
+  command->add_option("--csv", options->csv, "write every step to this file")->check(output_name());
   command->add_option("--set", options->overrides, "override a setting, PATH=VALUE")
       ->take_all()
       ->allow_extra_args(false);

@@ -2,6 +2,7 @@
 #include "cli/processors.hpp"
 #include "cli/signals.hpp"
 #include "cli/terminal.hpp"
+#include "cli/usage.hpp"
 #include "config/yaml.hpp"
 #include "core/check.hpp"
 #include "workflows/engine/headlines.hpp"
@@ -169,7 +170,8 @@ void add_run(CLI::App& app, Command& action) {
   CLI::App* command =
       app.add_subcommand("run", "Run the stages of a workflow that are not up to date");
   command->add_option("file", args->file, "workflow, FILE.yaml")->required();
-  command->add_option("--out", args->out, "folder of the results [runs/<name of the workflow>]");
+  command->add_option("--out", args->out, "folder of the results [runs/<name of the workflow>]")
+      ->check(output_name());
   command->add_option("--threads", args->threads, "number of threads [all]")
       ->check(CLI::Range(1, 4096));
   command->add_option("--set", args->overrides, "override a setting: stages.map.with.cell=2m")

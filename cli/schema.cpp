@@ -1,5 +1,6 @@
 #include "cli/command.hpp"
 #include "cli/study_schema.hpp"
+#include "cli/usage.hpp"
 #include "core/files.hpp"
 #include "workflows/engine/stage.hpp"
 #include "workflows/stages/stage_list.hpp"
@@ -86,7 +87,9 @@ void add_schema(CLI::App& app, Command& action) {
 void add_docs(CLI::App& app, Command& action) {
   auto folder = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("docs", "Write the manual pages of all stages");
-  command->add_option("folder", *folder, "folder of the pages, DIR")->required();
+  command->add_option("folder", *folder, "folder of the pages, DIR")
+      ->required()
+      ->check(output_name());
   command->callback([folder, &action] {
     action = [folder] {
       make_folders(*folder);

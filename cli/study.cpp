@@ -3,6 +3,7 @@
 #include "cli/study_batch.hpp"
 #include "cli/study_display.hpp"
 #include "cli/study_pool.hpp"
+#include "cli/usage.hpp"
 #include "core/check.hpp"
 #include "core/files.hpp"
 #include "core/hash.hpp"
@@ -213,7 +214,7 @@ void add_study_run(CLI::App& study, Command& action) {
   const auto args = std::make_shared<StudyArguments>();
   CLI::App* command = add(study, action, "run", "Compute what is missing of a study", args, run);
   command->add_option("file", args->file, "study, FILE.yaml")->required();
-  command->add_option("--out", args->out, "folder of the study [runs/NAME]");
+  command->add_option("--out", args->out, "folder of the study [runs/NAME]")->check(output_name());
   command->add_option("--jobs", args->jobs, "stages at once [one a processor]")
       ->check(CLI::Range(1, 4096));
   command->add_option("--threads", args->threads, "threads of all together [all]")

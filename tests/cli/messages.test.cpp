@@ -15,6 +15,28 @@ TEST_CASE("words that are no command or stage lead to the nearest", "[cli]") {
   CHECK_THAT(o.err, Contains("no such stage") && Contains("Did you mean 'shake'?"));
 }
 
+TEST_CASE("what a command line has wrong is named with what may be meant", "[cli]") {
+  const Scratch scratch;
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"study runn x.yaml", "no command 'runn'. Did you mean 'flowslide study run'?"},
+      {"run x.yaml --sett a=1", "no option '--sett'. Did you mean '--set'?"},
+      {"run x.yaml --thread=2", "no option '--thread'. Did you mean '--threads'?"},
+      {"run x.yaml --set a.b=1 m", "in quotes: --set 'a.b=1 m'."},
+      {"schema x y", "'x y' is not expected here"},
+      {"run x.yaml --out ''", "--out: is empty"},
+      {"run x.yaml --out '~/x'", "'~' is not expanded"},
+      {"point x.yaml --csv='~/x'", "'~' is not expanded"},
+      {"convert x.h5 ''", "is empty"},
+      {"docs '~'", "'~' is not expanded"}};
+  for (const auto& [arguments, text] : cases) {
+    CAPTURE(arguments);
+    const Outcome o = call(scratch, arguments);
+    CHECK(o.code == 2);
+    CHECK_THAT(o.err, Contains(text));
+  }
+  CHECK_FALSE(std::filesystem::exists(scratch / "~"));
+}
+
 TEST_CASE("a full disk behind the standard output is a matter of files", "[cli]") {
   const Scratch scratch;
   for (const char* arguments : {"schema", "--help", "bench --list"}) {
