@@ -65,8 +65,11 @@ void add_inspect(CLI::App& app, Command& action) {
         fmt::print("{}\n", result.dump(2, ' ', false, Json::error_handler_t::replace));
       else
         print(result, "");
-      // Problems of a run folder are files that are not what was written.
-      return result["kind"] == "run" && !result["problems"].empty() ? 4 : 0;
+      if (result["problems"].empty()) return 0;
+      // Problems of a run folder are files that are not what was written, those of a text are its
+      // own; results only remember what was odd about where they come from.
+      if (result["kind"] == "run") return 4;
+      return result["kind"] == "recorder" || result["kind"] == "workflow" ? 2 : 0;
     };
   });
 }

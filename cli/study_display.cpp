@@ -228,6 +228,17 @@ std::vector<std::string> StudyDisplay::failures() const {
   return lines;
 }
 
+namespace {
+
+/// A warning that rows share but for their numbers.
+std::string told(const study::TableWarning& w) {
+  return fmt::format(
+      "{}: {} ({})", w.stage, w.text,
+      w.rows == 1 ? "1 row" : fmt::format("{} rows, with the numbers of the first", w.rows));
+}
+
+}  // namespace
+
 void StudyDisplay::end(const std::filesystem::path& folder, const study::Table& table) const {
   std::size_t done = 0, failed = 0;
   for (const study::Row& row : plan_.rows) {
@@ -240,14 +251,19 @@ void StudyDisplay::end(const std::filesystem::path& folder, const study::Table& 
       if (progress_.row_state(row) == State::failed)
         failures.push_back(
             {{"row", row.number}, {"label", row.label()}, {"cause", progress_.cause(row)}});
+    Json warnings = Json::array();
+    for (const study::TableWarning& w : table.warnings)
+      warnings.push_back({{"stage", w.stage}, {"text", w.text}, {"rows", w.rows}});
     print_json({{"event", "end"},
                 {"rows", plan_.rows.size()},
                 {"done", done},
                 {"failed", failed},
                 {"failures", failures},
+                {"warnings", warnings},
                 {"folder", folder.string()}});
     return;
   }
+  for (const study::TableWarning& w : table.warnings) print_warning(harmless(told(w)));
   if (kind_ == StudyOutput::quiet) return;
   for (const std::string& line : failures()) print_wrapped(stdout, "failed: ", line);
   fmt::print("{:<24} {} done, {} failed\n", "rows", done, failed);

@@ -1,6 +1,7 @@
 #include "study/table/table.hpp"
 
 #include "workflows/engine/sealed_json.hpp"
+#include "workflows/engine/warnings.hpp"
 
 #include <algorithm>
 #include <array>
@@ -143,15 +144,12 @@ class Builder {
     add("cause", Role::state, "", "of a failure").text = std::move(causes);
   }
 
-  void add_warnings(const std::string& stage, const std::string& facts) {
-    const Json all = Json::parse(facts, nullptr, false);
-    if (!all.is_object() || !all.contains("warnings") || !all["warnings"].is_array()) return;
-    for (const Json& warning : all["warnings"]) {
-      if (!warning.is_string()) continue;
-      const std::string text = warning.get<std::string>();
+  /// Of its settings, and of what it found.
+  void add_warnings(const WorkflowStage& stage, const StageRecord& result) {
+    for (const std::string& text : warnings_of(stage, &result)) {
       const auto [it, is_new] =
-          warning_.try_emplace(stage + without_numbers(text), table_.warnings.size());
-      if (is_new) table_.warnings.push_back({stage, text, 0});
+          warning_.try_emplace(stage.name + without_numbers(text), table_.warnings.size());
+      if (is_new) table_.warnings.push_back({stage.name, text, 0});
       ++table_.warnings[it->second].rows;
     }
   }
@@ -164,7 +162,7 @@ class Builder {
       for (const std::size_t n : plan_.rows[r].nodes) {
         const auto& finished = progress_.node(n).finished;
         if (!finished) continue;
-        add_warnings(plan_.nodes[n].stage.name, finished->record.facts);
+        add_warnings(plan_.nodes[n].stage, finished->record);
         for (const auto& [name, value] : flat_facts(finished->record.facts)) {
           auto [it, is_new] = columns.try_emplace(name);
           Column& c = it->second;

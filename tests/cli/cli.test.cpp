@@ -143,6 +143,18 @@ TEST_CASE("inspect reads all of a run folder and names what is damaged", "[cli]"
   CHECK_THAT(call(scratch, "inspect out --json").out, Contains("\"problems\": []"));
 }
 
+TEST_CASE("inspect ends with 2 for a text with problems", "[cli]") {
+  const Scratch scratch;
+  write_model(scratch);
+  scratch.write("w.yaml", "schema: 1\nname: w\nstages:\n" + shake());
+  CHECK(call(scratch, "inspect w.yaml").code == 0);
+  CHECK(call(scratch, "inspect stress.out").code == 0);
+  scratch.write("w.yaml", "schema: 1\nname: w\nstages:\n" + shake("{length: mile}"));
+  scratch.write("stress.out", "");
+  CHECK(call(scratch, "inspect w.yaml").code == 2);
+  CHECK(call(scratch, "inspect stress.out").code == 2);
+}
+
 TEST_CASE("what cannot be looked at is said with the system's reason", "[cli]") {
   const Scratch scratch;
   std::filesystem::create_directory(scratch / "empty");

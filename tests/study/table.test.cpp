@@ -141,7 +141,7 @@ TEST_CASE("The page answers in words, warns, and leads to the runs", "[study]") 
 
 TEST_CASE("Stages' warnings that differ in numbers only are told once", "[study]") {
   StudyBench bench;
-  const Plan plan = bench.plan(kStudy);
+  Plan plan = bench.plan(kStudy);
   bench.run(plan);
   const Store store(bench.folder);
   const StudyState before = bench.progress(plan);
@@ -151,12 +151,17 @@ TEST_CASE("Stages' warnings that differ in numbers only are told once", "[study]
     Finished f = *store.finished("sum", before.node(n).key);
     f.record.facts = fmt::format(R"({{"sum": 1, "warnings": ["{} m are too few"]}})", ++sums);
     store.write(f);
+    // What the look at the settings says is not among the facts.
+    plan.nodes[n].stage.warnings = {fmt::format("cell: {} m is coarse.", sums)};
   }
   const Table table = make_table(plan, bench.progress(plan));
-  REQUIRE(table.warnings.size() == 1);
-  CHECK(table.warnings[0].stage == "sum");
-  CHECK(table.warnings[0].rows == table.rows);
-  CHECK_THAT(table.warnings[0].text, Contains(" m are too few"));
+  REQUIRE(table.warnings.size() == 2);
+  for (const TableWarning& w : table.warnings) {
+    CHECK(w.stage == "sum");
+    CHECK(w.rows == table.rows);
+  }
+  CHECK_THAT(table.warnings[0].text, Contains(" m is coarse"));
+  CHECK_THAT(table.warnings[1].text, Contains(" m are too few"));
 }
 
 TEST_CASE("Numbers that hang on the machine are not in the table", "[study]") {
