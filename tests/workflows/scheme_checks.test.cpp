@@ -165,3 +165,43 @@ TEST_CASE("A box that cuts the dam is seen, and planes that cut it are refused")
   CHECK_THAT(planes({.left = {}, .right = 110.0, .bottom = {}}), Contains("(115, 5) m"));
   CHECK_THAT(planes({.left = {}, .right = {}, .bottom = 10.0}), Contains("absorbing.bottom"));
 }
+
+TEST_CASE("A pore pressure that no soil reaches, or any, is seen as the mark of liquefaction") {
+  const auto marked = [](double threshold, double floor) {
+    RuConfig c;
+    c.threshold = threshold;
+    c.floor = floor;
+    Findings found;
+    check_r_u(c, found);
+    return warnings(found);
+  };
+  CHECK(marked(0.7, 8e3).empty());
+  CHECK_THAT(marked(1e300, 8e3), Contains("nothing may liquefy"));
+  CHECK_THAT(marked(0.01, 8e3), Contains("most of its effective stress"));
+  CHECK_THAT(marked(0.7, 1e6), Contains("less than 1000 kPa"));
+}
+
+TEST_CASE("Damping and tolerances that hide the shaking are seen") {
+  const auto shaken = [](const std::function<void(FemConfig&)>& change) {
+    FemConfig c;
+    Findings control, found;
+    check_fem_soils(c, control);
+    CHECK(warnings(control).empty());
+    change(c);
+    check_fem_soils(c, found);
+    return warnings(found);
+  };
+  CHECK(shaken([](FemConfig& c) { c.damping.ratio = 0.05; }).empty());
+  CHECK_THAT(shaken([](FemConfig& c) { c.damping.ratio = 0.5; }), Contains("of critical at 1 Hz"));
+  CHECK_THAT(shaken([](FemConfig& c) { c.damping.mass = 1e3, c.damping.stiffness = 0.0; }),
+             Contains("of critical at 1 Hz"));
+  const auto loose = [](FemConfig& c) {
+    c.integration.scheme = IntegrationScheme::implicit;
+    c.integration.tolerance = 1.0;
+  };
+  CHECK_THAT(shaken(loose), Contains("pass for equilibrium"));
+  CHECK_THAT(shaken([](FemConfig& c) { c.stabilisation.hourglass = 0.0; }),
+             Contains("hourglass: 0 lets"));
+  CHECK_THAT(shaken([](FemConfig& c) { c.stabilisation.pressure = 0.0; }),
+             Contains("stabilisation.pressure: 0"));
+}

@@ -115,6 +115,33 @@ void check_law(const std::string& where, const FemMaterialConfig& m, Findings& f
   });
 }
 
+/// What damps the shaking, or leaves it to noise.
+void check_fem_scheme(const FemConfig& fem, Findings& found) {
+  constexpr double kMostDamping = 0.1, kUsual = 1.0;  // [-], at [Hz]
+  const fem::Damping d = fem::rayleigh(fem.damping);
+  const double ratio =
+      d.mass / (4.0 * std::numbers::pi * kUsual) + std::numbers::pi * kUsual * d.stiffness;
+  if (std::max(ratio, fem.damping.mass ? 0.0 : fem.damping.ratio) > kMostDamping)
+    found.warnings.push_back(fmt::format(
+        "damping: {:.2g} of critical at 1 Hz, beside what the soil's law has of its own; soil has "
+        "0.005 to 0.05 at small strain. So much takes the shaking away that liquefies the soil.",
+        ratio));
+  constexpr double kLoose = 0.01;
+  if (fem.integration.scheme == IntegrationScheme::implicit && fem.integration.tolerance > kLoose)
+    found.warnings.push_back(fmt::format(
+        "integration.tolerance: forces out of balance of {:g} times a node's weight pass for "
+        "equilibrium.",
+        fem.integration.tolerance));
+  if (!(fem.stabilisation.hourglass > 0.0))
+    found.warnings.push_back(
+        "stabilisation.hourglass: 0 lets elements move in a pattern that has no strain and meets "
+        "no resistance.");
+  if (!(fem.stabilisation.pressure > 0.0))
+    found.warnings.push_back(
+        "stabilisation.pressure: 0 lets pore pressures of undrained soil alternate from node to "
+        "node.");
+}
+
 }  // namespace
 
 void check_densities(const std::vector<HistoryMaterial>& materials, Findings& found) {
@@ -147,6 +174,7 @@ void check_map_materials(const MapConfig& map, const std::vector<HistoryMaterial
 }
 
 void check_fem_soils(const FemConfig& fem, Findings& found) {
+  check_fem_scheme(fem, found);
   const double water = fem.water ? fem.water->density : 1000.0;
   for (const auto& [name, m] : fem.materials) {
     const std::string where = "materials." + name;

@@ -29,6 +29,23 @@ void check_strength(const StrengthConfig& strength, Findings& found) {
   }
 }
 
+void check_r_u(const RuConfig& r_u, Findings& found) {
+  constexpr double kLow = 0.5, kHigh = 1.0, kDeep = 30e3;  // [-], [-], [Pa]
+  if (r_u.threshold >= kHigh)
+    found.warnings.push_back(fmt::format(
+        "r_u.threshold: {:g} is hardly ever exceeded, as soil without effective stress has 1: "
+        "nothing may liquefy.",
+        r_u.threshold));
+  else if (r_u.threshold < kLow)
+    found.warnings.push_back(fmt::format(
+        "r_u.threshold: {:g} counts soil as liquefied that has most of its effective stress.",
+        r_u.threshold));
+  if (r_u.floor > kDeep)
+    found.warnings.push_back(fmt::format(
+        "r_u.floor: soil with less than {:g} kPa, down to some {:.1g} m, cannot count as liquefied.",
+        r_u.floor / 1e3, r_u.floor / 10e3));
+}
+
 void check_pond(const TransferRuleConfig& rule, const QuadMesh& mesh,
                 const std::vector<HistoryMaterial>& materials, Findings& found) {
   std::set<std::int32_t> liquefiable;

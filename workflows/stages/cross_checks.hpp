@@ -77,6 +77,8 @@ void check_water(const FemConfig& fem, const QuadMesh& mesh, Findings& found);
 
 /// Residual strength against the stress it belongs to.
 void check_strength(const StrengthConfig& strength, Findings& found);
+/// From which pore pressure soil has liquefied.
+void check_r_u(const RuConfig& r_u, Findings& found);
 /// The pond surface against the soil that can liquefy.
 void check_pond(const TransferRuleConfig& rule, const QuadMesh& mesh,
                 const std::vector<HistoryMaterial>& materials, Findings& found);

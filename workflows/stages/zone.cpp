@@ -68,6 +68,7 @@ struct ZoneStage {
   static std::any preview(const Config& config, const Previews& in, Findings& found) {
     Preview p = merged(in);
     check_strength(config.strength, found);
+    check_r_u(config.r_u, found);
     if (p.stop) compare_transfer_rules(*p.stop, config, found);
     p.zone = config;
     const bool told = p.stop && p.stop->transfer.at == config.transfer.at;
