@@ -404,9 +404,10 @@ TEST_CASE("Terrain lies under the dam and has heights there") {
     for (int i = 0; i < 30; ++i) text += row + "\n";
     return text;
   };
-  std::string level, gap, marks;
+  std::string level, gap, marks, step;
   for (int i = 0; i < 100; ++i) {
     level += "100 ";
+    step += i == 90 ? "0 " : "100 ";
     marks += i == 90 ? "0 " : fmt::format("{} ", 100 - i % 7);
     gap += i == 30 || i == 80 ? "-9999 " : "100 ";
   }
@@ -415,6 +416,7 @@ TEST_CASE("Terrain lies under the dam and has heights there") {
   scratch.write("level.asc", header + rows(level));
   scratch.write("gap.asc", header + rows(gap));
   scratch.write("marks.asc", header + rows(marks));
+  scratch.write("step.asc", header + rows(step));
   const auto ask_about = [&](const char* file, std::array<double, 2> origin,
                              double height = 100.0) {
     FlowConfig c = flow_config();
@@ -437,6 +439,8 @@ TEST_CASE("Terrain lies under the dam and has heights there") {
   CHECK_THAT(ask_about("gap.asc", {500400.0, 7000100.0}).warnings, Contains("60 of 3000 heights"));
   CHECK_THAT(ask_about("marks.asc", there).warnings,
              Contains("30 of 3000 heights of marks.asc are 0 m, 94 m below all others"));
+  CHECK_THAT(ask_about("step.asc", there).warnings,
+             Contains("are 0 m, 100 m below") && !Contains("above all others"));
 }
 
 TEST_CASE("Every element of a transfer has a material, and soil that liquefies a law for it") {

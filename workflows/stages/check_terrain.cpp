@@ -110,6 +110,7 @@ void check_marks(const mpm::HeightField& f, Findings& found) {
     const double gap = next - outermost;
     if (!(std::isfinite(next) && gap > kLeast && gap > kShare * (other_end - next))) return;
     const auto count = std::count(f.height.begin(), f.height.end(), sign * outermost);
+    if (2 * count > std::ssize(f.height)) return;  // the others are the odd ones
     found.warnings.push_back(fmt::format(
         "ground.terrain: {} of {} heights of {} are {:g} m, {:.4g} m {} all others. If they are a "
         "mark for missing data, write it into the header as nodata_value.",
