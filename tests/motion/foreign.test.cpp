@@ -71,7 +71,8 @@ TEST_CASE("Peaks that no earthquake has are warned about", "[motion]") {
 
 TEST_CASE("An acceleration with an offset is told by its velocity", "[motion]") {
   const auto told = [](double offset) {
-    GroundMotion m{.dt = 0.01};
+    GroundMotion m;
+    m.dt = 0.01;
     for (int i = 0; i <= 1000; ++i)
       m.acceleration.push_back(offset + std::sin(0.02 * kPi * i));  // ten times 1 s
     return implausible_velocity("a.txt", m);
