@@ -1,10 +1,10 @@
 #include "importers/opensees.hpp"
 #include "tests/support/paths.hpp"
+#include "tests/support/scratch.hpp"
 #include "transfer/map/map_state.hpp"
 
 #include <cmath>
 #include <filesystem>
-#include <unistd.h>
 
 #include <catch2/catch.hpp>
 
@@ -15,8 +15,8 @@ namespace {
 /// The dam of the fixture at rest.
 FemHistory import_at_rest() {
   const std::filesystem::path folder = test::fixture("opensees/dam-rio270");
-  const auto out =
-      std::filesystem::temp_directory_path() / fmt::format("flowslide-map-dam-{}.h5", getpid());
+  const Scratch scratch;
+  const auto out = scratch / "history.h5";
   OpenSeesConfig c;
   c.mesh.nodes = {folder / "nodeinfo.dat"};
   c.mesh.elements = {folder / "elementinfo.dat"};
@@ -27,9 +27,7 @@ FemHistory import_at_rest() {
   c.gravity.stress = {folder / "Gstress.out"};
   c.gravity.pore_pressure = {folder / "GporePressure.out"};
   import_opensees(c, out);
-  FemHistory history(out);
-  std::filesystem::remove(out);
-  return history;
+  return FemHistory(out);
 }
 
 /// All tailings have liquefied; S_r = 0.4616 sigma'_v0^0.576 in kPa.

@@ -1,12 +1,12 @@
 #include "core/check.hpp"
 #include "importers/opensees.hpp"
 #include "tests/support/paths.hpp"
+#include "tests/support/scratch.hpp"
 #include "transfer/zone/zone.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <unistd.h>
 
 #include <catch2/catch.hpp>
 
@@ -14,10 +14,8 @@ using namespace flowslide;
 
 namespace {
 
-std::filesystem::path import_dam() {
+void import_dam(const std::filesystem::path& out) {
   const std::filesystem::path folder = test::fixture("opensees/dam-rio270");
-  const auto out =
-      std::filesystem::temp_directory_path() / fmt::format("flowslide-dam-{}.h5", getpid());
   OpenSeesConfig c;
   c.mesh.nodes = {folder / "nodeinfo.dat"};
   c.mesh.elements = {folder / "elementinfo.dat"};
@@ -34,7 +32,6 @@ std::filesystem::path import_dam() {
   c.shaking->stress = {folder / "stress.out.gz"};
   c.shaking->strain = {folder / "strain.out.gz"};
   import_opensees(c, out);
-  return out;
 }
 
 std::size_t sample_near(const ZoneHistory& h, double t) {
@@ -46,7 +43,9 @@ std::size_t sample_near(const ZoneHistory& h, double t) {
 }  // namespace
 
 TEST_CASE("the dam of the fixture liquefies as its README says", "[transfer]") {
-  const std::filesystem::path path = import_dam();
+  const Scratch scratch;
+  const auto path = scratch / "history.h5";
+  import_dam(path);
   ZoneConfig c;
   c.windows = {{"crest", {-40.0, -20.0}}, {"pond", {-70.0, -50.0}}};
   c.liquefiable = {"tailings"};
@@ -56,7 +55,6 @@ TEST_CASE("the dam of the fixture liquefies as its README says", "[transfer]") {
   c.strength.table = {{25e3, 3.0e3}, {50e3, 4.3e3}, {100e3, 6.5e3}, {250e3, 11.1e3}, {325e3, 12e3}};
   const FemHistory history(path);
   const LiquefactionZone zone = find_zone(history, c);
-  std::filesystem::remove(path);
   const ZoneHistory& h = zone.history;
   REQUIRE(h.window_names == std::vector<std::string>{"crest", "pond"});
   REQUIRE(h.time.size() == 31);
