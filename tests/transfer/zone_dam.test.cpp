@@ -1,7 +1,6 @@
 #include "core/check.hpp"
-#include "importers/opensees.hpp"
-#include "tests/support/paths.hpp"
 #include "tests/support/scratch.hpp"
+#include "tests/transfer/fixture_dam.hpp"
 #include "transfer/zone/zone.hpp"
 
 #include <algorithm>
@@ -14,26 +13,6 @@ using namespace flowslide;
 
 namespace {
 
-void import_dam(const std::filesystem::path& out) {
-  const std::filesystem::path folder = test::fixture("opensees/dam-rio270");
-  OpenSeesConfig c;
-  c.mesh.nodes = {folder / "nodeinfo.dat"};
-  c.mesh.elements = {folder / "elementinfo.dat"};
-  c.units = {"m", "s", "kPa"};
-  c.materials = {{"embankment", {167, 1690.0, {}}},
-                 {"tailings", {168, 1870.0, {}}},
-                 {"foundation", {170, 1900.0, {}}}};
-  c.gravity.stress = {folder / "Gstress.out"};
-  c.gravity.pore_pressure = {folder / "GporePressure.out"};
-  c.shaking.emplace();
-  c.shaking->displacement = {folder / "displacement.out.gz"};
-  c.shaking->velocity = {folder / "velocity.out.gz"};
-  c.shaking->pore_pressure = {folder / "porePressure.out.gz"};
-  c.shaking->stress = {folder / "stress.out.gz"};
-  c.shaking->strain = {folder / "strain.out.gz"};
-  import_opensees(c, out);
-}
-
 std::size_t sample_near(const ZoneHistory& h, double t) {
   return static_cast<std::size_t>(
       std::ranges::min_element(h.time, {}, [t](double s) { return std::abs(s - t); }) -
@@ -45,7 +24,7 @@ std::size_t sample_near(const ZoneHistory& h, double t) {
 TEST_CASE("the dam of the fixture liquefies as its README says", "[transfer]") {
   const Scratch scratch;
   const auto path = scratch / "history.h5";
-  import_dam(path);
+  import_opensees(test::shaken_fixture_dam(), path);
   ZoneConfig c;
   c.windows = {{"crest", {-40.0, -20.0}}, {"pond", {-70.0, -50.0}}};
   c.liquefiable = {"tailings"};
