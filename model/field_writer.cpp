@@ -1,4 +1,5 @@
 #include "core/files.hpp"
+#include "model/chunk_filters.hpp"
 #include "model/field_store.hpp"
 #include "model/hdf5_handle.hpp"
 #include "model/written_fields.hpp"
@@ -60,6 +61,7 @@ struct FieldWriter::Impl {
     hsize_t rows = 0;
   };
   std::map<std::string, Series> series;
+  ChunkFilters filters;
   bool finished = false;
 
   ~Impl() {
@@ -82,13 +84,28 @@ struct FieldWriter::Impl {
     if (!chunk.empty())
       expect_hdf5(H5Pset_chunk(layout, static_cast<int>(chunk.size()), chunk.data()) >= 0 &&
                   H5Pset_shuffle(layout) >= 0 && H5Pset_deflate(layout, 1) >= 0 &&
-                  H5Pset_fletcher32(layout) >= 0);
+                  H5Pset_fletcher32(layout) >= 0);  // as ChunkFilters leaves them
     Hdf5Handle dataset(
         H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, layout, H5P_DEFAULT), &H5Dclose);
     if (!dataset.valid() || !set_text(dataset, "unit", label.unit) ||
         !set_text(dataset, "convention", label.convention))
       throw_file_error(path, name, "cannot be created");
     return dataset;
+  }
+
+  /// Writes `rows` rows of `row` values in chunks of at most `chunk_rows`; the first chunk is at
+  /// `at`, whose component `along` counts rows.
+  bool write_chunks(hid_t dataset, std::size_t value_bytes, hsize_t rows, hsize_t chunk_rows,
+                    std::size_t row, std::vector<hsize_t> at, std::size_t along, const void* data) {
+    for (hsize_t first = 0; first < rows; first += chunk_rows) {
+      const auto packed =
+          filters.apply(static_cast<const std::uint8_t*>(data) + first * row * value_bytes,
+                        std::min(chunk_rows, rows - first) * row, chunk_rows * row, value_bytes);
+      at[along] = first;
+      if (H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, at.data(), packed.size(), packed.data()) < 0)
+        return false;
+    }
+    return true;
   }
 
   /// HDF5 keeps chunks in memory until a dataset is closed.
@@ -131,7 +148,9 @@ void FieldWriter::write_array(const std::string& name, Scalar type, const Shape&
     chunk[0] = std::min<hsize_t>(chunk[0], kChunkRows);
   }
   Hdf5Handle dataset = impl_->create(name, disk_type(type), extent, extent, chunk, label);
-  if (count > 0 && H5Dwrite(dataset, memory_type(type), H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
+  if (count > 0 &&
+      !impl_->write_chunks(dataset, H5Tget_size(disk_type(type)), shape[0], chunk[0],
+                           count / shape[0], std::vector<hsize_t>(shape.size(), 0), 0, data))
     throw_file_error(impl_->path, name, "cannot be written");
   impl_->close(name, dataset);
   impl_->written.add(name, type, 0, shape[0], {shape.begin() + 1, shape.end()}, data);
@@ -187,16 +206,13 @@ void FieldWriter::append_row(const std::string& name, Scalar type, const Shape& 
   validate(series.row == shape, "'{}': dataset '{}': a row has the shape {}, those before had {}",
            impl_->path.string(), name, shape_text(shape), shape_text(series.row));
 
-  const Hdf5Handle memory(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
-                          &H5Sclose);
   std::vector<hsize_t> whole = extent, start(extent.size(), 0);
   start[0] = series.rows;
   whole[0] = series.rows + 1;
-  bool done = H5Dset_extent(series.dataset, whole.data()) >= 0;
-  const Hdf5Handle space(H5Dget_space(series.dataset), &H5Sclose);
-  done = done && H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, extent.data(),
-                                     nullptr) >= 0;
-  done = done && H5Dwrite(series.dataset, memory_type(type), memory, space, H5P_DEFAULT, data) >= 0;
+  const bool done = H5Dset_extent(series.dataset, whole.data()) >= 0 &&
+                    impl_->write_chunks(series.dataset, H5Tget_size(disk_type(type)), shape[0],
+                                        std::min<hsize_t>(shape[0], kChunkRows), count / shape[0],
+                                        start, 1, data);
   if (!done) throw_file_error(impl_->path, name, "cannot be written");
   ++series.rows;
   impl_->written.add(name, type, 0, 1, shape, data);

@@ -1,6 +1,7 @@
 #pragma once
 #include "constitutive/materials.hpp"
 #include "mpm/kernels/g2p.hpp"
+#include "mpm/kernels/scheme.hpp"
 
 #include <algorithm>
 #include <span>
@@ -21,18 +22,24 @@ struct SolverMaterial {
   TypedMaterial law;
   Elasticity elastic;   ///< for the stable step and the recoverable energy
   bool average_volume;  ///< F-bar: bulk modulus well above shear modulus
+  double wave_modulus;  ///< below
 };
 
 /// Stiffness that bounds the time step [Pa]: that of compression without strain to the sides, K +
-/// 4/3 G; where F-bar gives changes of volume another rate than shear, both count in full, K + 2 G.
-inline double wave_modulus(const Elasticity& e, bool average_volume) noexcept {
-  return e.bulk + (average_volume ? 2.0 : 4.0 / 3.0) * e.shear;
+/// 4/3 G; with mls, whose gradient is one field, that of the worst such field by its number of
+/// components, equal stretches unless Poisson's ratio is negative. Where F-bar gives changes of
+/// volume another rate than shear, both count in full. docs/theory/time-step.md, section 1
+template <int Dim>
+double wave_modulus(const Elasticity& e, bool averages, BasisKind basis) noexcept {
+  if (basis != BasisKind::mls) return e.bulk + (averages ? 2.0 : 4.0 / 3.0) * e.shear;
+  const double of_stretch = averages ? 2.0 : 2.0 - 2.0 * Dim / 3.0;
+  return std::max(e.bulk + of_stretch / Dim * e.shear, 2.0 / Dim * e.shear);
 }
 
 struct StressWork {
   double power_start = 0.0;  ///< dt sum V sigma : D with V and sigma before the step [J]
   double power_end = 0.0;    ///< the same with V and sigma after it [J]
-  double max_wave2 = 0.0;    ///< largest wave_modulus / rho [m2/s2]
+  double max_wave2 = 0.0;    ///< largest wave modulus / rho [m2/s2]
   double max_speed2 = 0.0;   ///< largest |v|^2 [m2/s2]
   double max_strain = 0.0;   ///< largest |L| dt of the step [-]
   void add(const StressWork& o) {

@@ -154,10 +154,9 @@ StressWork update_stress(Points<Dim>& p, const Tile<Dim>& tile, std::span<const 
   StressWork total;
   for (const MaterialRun& run : runs) {
     const SolverMaterial& m = materials[run.material];
-    const double modulus = wave_modulus(m.elastic, average && m.average_volume);
     total.add(std::visit(
         [&]<class M>(const Typed<M>& law) {
-          return update_run<Dim, M>(p, tile, run, law.constants, dt, modulus, s);
+          return update_run<Dim, M>(p, tile, run, law.constants, dt, m.wave_modulus, s);
         },
         m.law));
   }

@@ -28,14 +28,17 @@ bool frictional(const typename M::Params& p) {
     return false;
 }
 
+template <int Dim>
 SolverMaterial solver_material(const MaterialSpec& spec, const FlowConfig& config) {
   const double scale =
       config.softening.regularise ? config.cell / config.softening.reference_length : 1.0;
   return std::visit(
       [&]<class M>(const Material<M>& m) {
         const Elasticity e = M::elasticity(m.params);
-        return SolverMaterial{Typed<M>{M::constants(m.params, scale)}, e,
-                              e.bulk > kAverageRatio * e.shear && !frictional<M>(m.params)};
+        const bool locks = e.bulk > kAverageRatio * e.shear && !frictional<M>(m.params);
+        const bool averages = locks && config.volume_average == VolumeAverage::automatic;
+        return SolverMaterial{Typed<M>{M::constants(m.params, scale)}, e, locks,
+                              wave_modulus<Dim>(e, averages, config.basis)};
       },
       from_parameters(spec.law, spec.parameters));
 }
@@ -208,8 +211,7 @@ void measure_points(Simulation<Dim>& s) {
   for (std::size_t i = 0; i < p.size(); ++i) {
     double& largest = s.largest_density[p.material[i]];
     largest = std::max(largest, p.mass[i] / p.volume[i]);
-    const double modulus =
-        wave_modulus(s.materials[p.material[i]].elastic, s.averages(p.material[i]));
+    const double modulus = s.materials[p.material[i]].wave_modulus;
     s.last.max_wave2 = std::max(s.last.max_wave2, modulus * p.volume[i] / p.mass[i]);
     double speed2 = 0.0;
     for (const auto& v : p.v) speed2 += v[i] * v[i];
@@ -249,7 +251,7 @@ Simulation<Dim> make_simulation(const ParticleSet& particles, const FlowConfig& 
   validate(particles.size() > 0, "there are no particles to run");
   Simulation<Dim> s = make_scene<Dim>(config);
   for (const MaterialSpec& spec : particles.materials)
-    s.materials.push_back(solver_material(spec, config));
+    s.materials.push_back(solver_material<Dim>(spec, config));
   load_points(particles, s.points);
   load_states(particles, s.points);
   check_places(s, particles.id);

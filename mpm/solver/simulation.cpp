@@ -87,8 +87,7 @@ void sleep_or_wake(Simulation<Dim>& s) {
   if (!change.woken) return;
   const Points<Dim>& p = s.points;
   for (std::size_t q = 0; q < p.size(); ++q) {
-    const double modulus =
-        wave_modulus(s.materials[p.material[q]].elastic, s.averages(p.material[q]));
+    const double modulus = s.materials[p.material[q]].wave_modulus;
     s.last.max_wave2 = std::max(s.last.max_wave2, modulus * p.volume[q] / p.mass[q]);
   }
 }

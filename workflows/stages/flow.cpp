@@ -24,7 +24,7 @@ nlohmann::ordered_json stiffness_facts(const StiffnessChoice& choice) {
 struct FlowStage {
   static constexpr std::string_view name = "mpm.run";
   static constexpr std::string_view doc = "The runout, with the material point method.";
-  static constexpr int version = 7;
+  static constexpr int version = 8;
   static constexpr bool checkpoints = true;
   using Config = FlowConfig;
   struct Inputs {

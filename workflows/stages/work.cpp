@@ -3,6 +3,7 @@
 #include "core/conventions.hpp"
 #include "fem/build_model.hpp"
 #include "mpm/kernels/basis.hpp"
+#include "mpm/kernels/stress.hpp"
 #include "mpm/run/stiffness.hpp"
 
 #include <algorithm>
@@ -67,7 +68,6 @@ double fastest_wave(const FlowConfig& flow, const MapConfig& map,
   double lowest = soil.all.bottom;
   for (const auto& point : flow.ground.surface) lowest = std::min(lowest, point[1]);
   const double fall = soil.all.top - lowest;
-  // (K + 2 G) / rho [m2/s2]
   const auto wave2 = [&](double youngs_modulus, double poisson_ratio, double density) {
     Elasticity e = Elasticity::from_young(youngs_modulus, poisson_ratio);
     if (flow.stiffness == Stiffness::automatic)
@@ -75,7 +75,7 @@ double fastest_wave(const FlowConfig& flow, const MapConfig& map,
                      needed_bulk(flow.stiffness_bounds, density, density * flow.gravity * fall,
                                  fall_speed(flow.gravity, fall)),
                      0.0);
-    return (e.bulk + 2.0 * e.shear) / density;
+    return mpm::wave_modulus<2>(e, true, flow.basis) / density;
   };
   for (const auto& [name, m] : map.materials) {
     double density = std::numeric_limits<double>::infinity();
