@@ -201,6 +201,12 @@ void add_check(CLI::App& app, Command& action) {
           print_warning(fmt::format("{}: {}", stage.name, text));
           ++warnings;
         }
+      for (const WorkflowStage& stage : workflow.stages)
+        for (const std::string& program : stage.prepared.programs)
+          print_wrapped(stderr, "note: ",
+                        fmt::format("{}: would start '{}', which `run` does with --allow-python "
+                                    "'{}' only",
+                                    stage.name, program, program));
       fmt::print("{}: {} stages, {}\n", args->file, workflow.stages.size(),
                  warnings == 0   ? "no problem found"
                  : warnings == 1 ? "1 warning"

@@ -49,6 +49,12 @@ std::string harmless(std::string text) {
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
+Json row_json(const study::Row& row, const study::StudyState& progress) {
+  return {{"row", row.number},    {"id", row.id},
+          {"label", row.label()}, {"workflow", row.workflow.string()},
+          {"set", row.overrides}, {"state", name_of_state(progress.row_state(row))}};
+}
+
 void tell_failure(const std::string& stage, const std::string& text) {
   const std::string first = first_line(text);
   print_wrapped(stderr, "failed: ", fmt::format("{}: {}", stage, first));
@@ -104,13 +110,7 @@ void StudyDisplay::plan(const study::WorkCosts& costs, std::size_t jobs) const {
   const double lasts = one.empty() ? 0.0 : one[0].tasks[0].seconds;
   if (kind_ == StudyOutput::json) {
     Json rows = Json::array();
-    for (const study::Row& row : plan_.rows)
-      rows.push_back({{"row", row.number},
-                      {"id", row.id},
-                      {"label", row.label()},
-                      {"workflow", row.workflow.string()},
-                      {"set", row.overrides},
-                      {"state", name_of_state(progress_.row_state(row))}});
+    for (const study::Row& row : plan_.rows) rows.push_back(row_json(row, progress_));
     print_json({{"event", "plan"},
                 {"processor_seconds", total.seconds},
                 {"seconds", lasts},
@@ -287,13 +287,8 @@ void StudyDisplay::status(const std::filesystem::path& folder, double bytes) con
     Json list = Json::array();
     for (const study::Row& row : plan_.rows) {
       const std::string cause = progress_.cause(row);
-      list.push_back({{"row", row.number},
-                      {"id", row.id},
-                      {"label", row.label()},
-                      {"workflow", row.workflow.string()},
-                      {"set", row.overrides},
-                      {"state", name_of_state(progress_.row_state(row))},
-                      {"cause", cause.empty() ? Json(nullptr) : Json(cause)}});
+      list.push_back(row_json(row, progress_));
+      list.back()["cause"] = cause.empty() ? Json(nullptr) : Json(cause);
     }
     print_json({{"study", plan_.name},
                 {"folder", folder.string()},

@@ -1,5 +1,7 @@
 #include "cli/terminal.hpp"
 
+#include "core/clock.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -13,12 +15,7 @@
 namespace flowslide::cli {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 constexpr int kNameWidth = 8;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 bool continues(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
 

@@ -1,11 +1,9 @@
 #include "core/hash.hpp"
 
-#include "core/check.hpp"
-#include "core/files.hpp"
-
 #include <array>
 #include <new>
 
+#include <fmt/format.h>
 #include <openssl/evp.h>
 
 namespace flowslide {
@@ -40,12 +38,6 @@ std::string Sha256::hex() {
 std::string sha256(std::string_view bytes) {
   Sha256 digest;
   digest.add(bytes.data(), bytes.size());
-  return digest.hex();
-}
-
-std::string sha256_file(const std::filesystem::path& path) {
-  Sha256 digest;
-  read_blocks(path, [&](std::string_view block) { digest.add(block.data(), block.size()); });
   return digest.hex();
 }
 

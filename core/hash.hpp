@@ -1,5 +1,4 @@
 #pragma once
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -23,9 +22,5 @@ class Sha256 {
 
 /// SHA-256 as 64 lower-case hexadecimal digits.
 std::string sha256(std::string_view bytes);
-
-/// SHA-256 of a regular file's content, read in blocks. Throws FileError, also for a pipe or a
-/// device, which may have no end.
-std::string sha256_file(const std::filesystem::path& path);
 
 }  // namespace flowslide

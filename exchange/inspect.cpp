@@ -12,11 +12,18 @@
 #include "model/section_mesh.hpp"
 #include "model/zone.hpp"
 #include "motion/measures.hpp"
+#include "mpm/walls/height_field.hpp"
 #include "workflows/engine/graph.hpp"
 #include "workflows/stages/stage_list.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -166,6 +173,42 @@ Json inspect_recorder(const fs::path& path) {
   return j;
 }
 
+bool is_terrain(const fs::path& path) {
+  std::ifstream in(path);
+  std::string word(8, '\0');
+  in.read(word.data(), std::ssize(word));
+  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string_view start = word;
+  return start.substr(start.starts_with("\xEF\xBB\xBF") ? 3 : 0).starts_with("ncols");
+}
+
+Json inspect_terrain(const fs::path& path) {
+  Json j = {{"kind", "terrain"}, {"problems", Json::array()}};
+  try {
+    const mpm::HeightField f = mpm::read_height_field(path, {});
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    std::size_t missing = 0;
+    for (const double h : f.height) {
+      if (h < low) low = h;
+      if (h > high) high = h;
+      missing += std::isnan(h) ? 1 : 0;
+    }
+    const auto span = [&](std::size_t c, int nodes) {
+      return Json{f.corner[c], f.corner[c] + (nodes - 1) * f.spacing};
+    };
+    j.update({{"columns", f.columns},
+              {"rows", f.rows},
+              {"cell_m", f.spacing},
+              {"east_m", span(0, f.columns)},
+              {"north_m", span(1, f.rows)},
+              {"heights_m", {low, high}},
+              {"missing", missing}});
+  } catch (const InputError& e) {
+    j["problems"].push_back(e.what());
+  }
+  return j;
+}
+
 }  // namespace
 
 Json inspect(const fs::path& path) {
@@ -173,6 +216,7 @@ Json inspect(const fs::path& path) {
   if (fs::is_directory(path, error)) return inspect_run(path);
   if (is_hdf5(path)) return inspect_store(path);
   if (path.extension() == ".yaml" || path.extension() == ".yml") return inspect_workflow(path);
+  if (is_terrain(path)) return inspect_terrain(path);
   return is_motion_record(path) ? inspect_record(path) : inspect_recorder(path);
 }
 

@@ -16,15 +16,6 @@ namespace {
 
 constexpr double kKiloPascal = 1e-3;
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw FileError(
-        fmt::format("'{}': the folder cannot be made ({})", folder.string(), error.message()));
-  remove_leftovers(folder);
-}
-
 /// A row of a recorder: time, then the numbers of each node or element.
 class Row {
  public:
@@ -90,7 +81,8 @@ double lost_zz(const FemFrame& frame) {
 }  // namespace
 
 void write_mesh_tables(const fs::path& folder, const QuadMesh& mesh) {
-  make_folder(folder);
+  make_folders(folder);
+  remove_leftovers(folder);
   OutputFile nodes(folder / "nodeinfo.dat"), elements(folder / "elementinfo.dat");
   for (std::size_t i = 0; i < mesh.num_nodes(); ++i)
     nodes.write(fmt::format("{} {} {}\n", mesh.node_tags[i], mesh.nodes[i][0], mesh.nodes[i][1]));

@@ -7,6 +7,7 @@
 #include "importers/recorder_columns.hpp"
 #include "importers/recorder_rows.hpp"
 #include "importers/recorder_text.hpp"
+#include "importers/row_warnings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -39,6 +40,10 @@ struct Context {
             config.mesh.elements.path.filename().string()};
   }
 };
+
+void append(std::vector<std::string>& all, std::vector<std::string> more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
 
 // Problems of rows are an error, or the end of the usable rows.
 void apply_bad_rows(const RecorderScan& scan, BadRows policy, std::vector<std::string>& warnings) {
@@ -134,36 +139,6 @@ FemFrame read_gravity(const Context& context, const std::function<void(double)>&
   return frame;
 }
 
-/// A recorder that ended before the others, or whose rows the others lack.
-void warn_about_rows(const std::vector<FileTimes>& files, const AlignedRows& aligned,
-                     std::vector<std::string>& warnings) {
-  double latest = -std::numeric_limits<double>::infinity();
-  for (const FileTimes& f : files) {
-    if (split_stages(f.times).size() > 1) return;  // the choice of a stage is said by a note
-    latest = std::max(latest, f.times.back());
-  }
-  const double step = step_range(aligned.times).max;
-  for (const FileTimes& f : files)
-    if (latest - f.times.back() > 1.5 * step)
-      warnings.push_back(fmt::format(
-          "{} ends at {:.6g} s, others at {:.6g} s: what comes later is not used. Was the run "
-          "stopped before the recorder was written out (`wipe`)?",
-          f.file, f.times.back(), latest));
-  // Rows thinned by -dT are none of the others' business; rows that nothing fits are.
-  const auto common = [&](double t) {
-    return t >= aligned.times.front() && t <= aligned.times.back();
-  };
-  std::size_t usable = std::numeric_limits<std::size_t>::max();
-  for (const FileTimes& f : files)
-    usable = std::min<std::size_t>(usable, std::count_if(f.times.begin(), f.times.end(), common));
-  if (usable > aligned.times.size())
-    warnings.push_back(
-        fmt::format("{} of the rows that every recorder has up to {:.6g} s are not used: their "
-                    "times differ, or "
-                    "repeat (times with too few digits?). Record with a higher -precision.",
-                    usable - aligned.times.size(), aligned.times.back()));
-}
-
 /// The five recorders of the motion, in the order of `files`.
 struct Shaking {
   std::vector<Recorder> recorders;
@@ -192,7 +167,7 @@ Shaking scan_shaking(const Context& context, const OpenSeesShaking& files,
     times.push_back(std::move(t));
   }
   shaking.aligned = align_rows(times, files.stage);
-  warn_about_rows(times, shaking.aligned, *context.warnings);
+  append(*context.warnings, row_warnings(times, shaking.aligned));
   const std::vector<double>& common = shaking.aligned.times;
   auto& notes = *context.notes;
   notes.insert(notes.end(), shaking.aligned.notes.begin(), shaking.aligned.notes.end());
@@ -278,10 +253,6 @@ std::function<void(double)> scan_progress(Percent& percent, std::size_t files) {
 }
 
 constexpr std::uintmax_t kSmallFile = 1 << 20;
-
-void append(std::vector<std::string>& all, std::vector<std::string> more) {
-  all.insert(all.end(), more.begin(), more.end());
-}
 
 /// Programs may tie nodes at one place to each other; this one does not know.
 std::vector<std::string> mesh_warnings(const OpenSeesConfig& config, const QuadMesh& mesh) {
@@ -376,14 +347,27 @@ ImportPreview preview_opensees(const OpenSeesConfig& config) {
   look(config.gravity.stress, context.elemental(c.stress));
   look(config.gravity.pore_pressure, context.nodal(c.pore_pressure));
   if (config.gravity.strain) look(*config.gravity.strain, context.elemental(c.strain));
-  if (small) append(preview.warnings, gravity_warnings(preview.mesh, read_gravity(context, {})));
+  std::optional<FemFrame> gravity;
+  if (small) {
+    gravity = read_gravity(context, {});
+    append(preview.warnings, gravity_warnings(preview.mesh, *gravity));
+  }
   if (!config.shaking) return preview;
   look(config.shaking->displacement, context.nodal(c.displacement));
   look(config.shaking->velocity, context.nodal(c.velocity));
   look(config.shaking->pore_pressure, context.nodal(c.pore_pressure));
   look(config.shaking->stress, context.elemental(c.stress));
   look(config.shaking->strain, context.elemental(c.strain));
-  if (small) scan_shaking(context, *config.shaking, {});
+  if (!small) return preview;
+  const Shaking shaking = scan_shaking(context, *config.shaking, {});
+  FrameSource source(context, shaking);
+  MotionWatch watch(preview.mesh);
+  for (std::size_t i = 0; i < shaking.aligned.times.size(); ++i) {
+    const FemFrame& frame = source.read(i);
+    if (i == 0) append(preview.warnings, start_warnings(*gravity, frame));
+    watch.look_at(frame);
+  }
+  append(preview.warnings, watch.warnings());
   return preview;
 }
 

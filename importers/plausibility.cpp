@@ -15,6 +15,11 @@ constexpr double kHeaviest = 30e3;    // [N/m3] above every soil
 constexpr double kNoPressure = 0.01;  // of the largest vertical stress
 constexpr double kJump = 0.3;         // allowed change from gravity to the first row
 constexpr std::size_t kSamples = 200;
+// A node moves at most as far as its speed carries it. It comes back within a step of a second or
+// less, so that a small part of the way is seen only; at 10 Hz that is a thirtieth.
+constexpr double kTooSlow = 10.0, kTooFast = 100.0;
+constexpr double kLongestStep = 1.0;  // [s]
+constexpr double kNoWay = 1e-4;       // [m]
 
 // Highest point of the mesh above x.
 double surface_height(const QuadMesh& mesh, double x) {
@@ -152,6 +157,7 @@ void MotionWatch::look_at(const FemFrame& frame) {
     }
     for (int d = 0; d < 2; ++d) positions[n][d] += u[d];
   }
+  compare_velocity(frame);
   if (folded_ > 0) return;
   for (std::size_t e = 0; e < mesh_.num_elements(); ++e) {
     if (area(corners(mesh_, positions, e)) > 0.0) continue;
@@ -160,8 +166,32 @@ void MotionWatch::look_at(const FemFrame& frame) {
   }
 }
 
+void MotionWatch::compare_velocity(const FemFrame& frame) {
+  const double step = frame.time - last_time_;
+  if (step > 0.0 && step <= kLongestStep) {
+    double moved = 0.0, carried = 0.0;
+    for (std::size_t n = 0; n < mesh_.num_nodes(); ++n) {
+      const Vec2 &u = frame.displacement[n], &u0 = last_displacement_[n];
+      const Vec2 &v = frame.velocity[n], &v0 = last_velocity_[n];
+      moved += hypot(u[0] - u0[0], u[1] - u0[1]);
+      carried += 0.5 * step * (hypot(v[0], v[1]) + hypot(v0[0], v0[1]));
+    }
+    moved_ += moved / static_cast<double>(mesh_.num_nodes());
+    carried_ += carried / static_cast<double>(mesh_.num_nodes());
+  }
+  last_time_ = frame.time;
+  last_displacement_ = frame.displacement;
+  last_velocity_ = frame.velocity;
+}
+
 std::vector<std::string> MotionWatch::warnings() const {
   std::vector<std::string> warnings;
+  if (std::max(moved_, carried_) > kNoWay &&
+      (moved_ > kTooSlow * carried_ || carried_ > kTooFast * moved_))
+    warnings.push_back(fmt::format(
+        "velocity: nodes move by {:.3g} m in all, but their velocity would carry them {:.3g} m. "
+        "Was `vel` recorded, in the units of the displacement and of the time?",
+        moved_, carried_));
   if (largest_ > 0.5 * height_)
     warnings.push_back(fmt::format(
         "displacement: node {} has moved by {:.4g} m at t = {:.6g} s, more than half the height of "

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/check.hpp"
 #include "model/history.hpp"
 
 #include <string>
@@ -18,7 +19,8 @@ std::vector<std::string> gravity_warnings(const QuadMesh& mesh, const FemFrame& 
 std::vector<std::string> start_warnings(const FemFrame& gravity, const FemFrame& first);
 
 /// Follows the motion of a mesh: displacements larger than the section cannot be, those larger than
-/// half its height are odd, and elements must not fold.
+/// half its height are odd, elements must not fold, and what nodes move by is about what their
+/// velocity carries them.
 class MotionWatch {
  public:
   explicit MotionWatch(const QuadMesh& mesh);
@@ -27,6 +29,8 @@ class MotionWatch {
   [[nodiscard]] std::vector<std::string> warnings() const;
 
  private:
+  void compare_velocity(const FemFrame& frame);
+
   const QuadMesh& mesh_;
   double length_ = 0.0, height_ = 0.0;  ///< of the section [m]
   double largest_ = 0.0, largest_time_ = 0.0;
@@ -34,6 +38,9 @@ class MotionWatch {
   std::size_t folded_ = 0;  ///< elements in the first frame that has any
   std::size_t folded_element_ = 0;
   double folded_time_ = 0.0;
+  double last_time_ = kUnset;
+  std::vector<Vec2> last_displacement_, last_velocity_;
+  double moved_ = 0.0, carried_ = 0.0;  ///< ways of the mean node by displacement, by velocity [m]
 };
 
 }  // namespace flowslide

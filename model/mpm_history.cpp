@@ -4,6 +4,7 @@
 #include "core/files.hpp"
 #include "model/append_file.hpp"
 #include "model/field_store.hpp"
+#include "model/frame_row.hpp"
 #include "model/particle_io.hpp"
 #include "model/parts_folder.hpp"
 
@@ -45,11 +46,6 @@ void visit_rule(Rule& rule, F&& f) {
 
 /// Doubles of one frame: time, 3 + 3 + 6 + 1 + 1 + 1 per particle.
 std::size_t frame_doubles(std::size_t particles) { return 1 + 15 * particles; }
-
-template <class Array>
-constexpr std::size_t width_of(const Array&) {
-  return sizeof(typename Array::value_type) / sizeof(double);
-}
 
 ParticleSet sorted_by_id(const ParticleSet& p) {
   std::vector<std::size_t> order(p.size());
@@ -98,10 +94,7 @@ struct MpmHistoryWriter::Impl {
     MpmFrame frame;
     frame.time = *from++;
     visit_arrays(frame, [this, &from](auto, auto&&, auto& array) {
-      array.resize(initial.size());
-      const std::size_t n = array.size() * width_of(array);
-      std::copy_n(from, n, reinterpret_cast<double*>(array.data()));
-      from += n;
+      from = take_row(from, initial.size(), array);
     });
     return frame;
   }
@@ -136,10 +129,7 @@ void MpmHistoryWriter::append(const MpmFrame& frame) {
       });
   double* to = impl_->record.data();
   *to++ = frame.time;
-  visit_arrays(frame, [&to](auto, auto&&, const auto& array) {
-    const auto* values = reinterpret_cast<const double*>(array.data());
-    to = std::copy_n(values, array.size() * width_of(array), to);
-  });
+  visit_arrays(frame, [&to](auto, auto&&, const auto& array) { to = put_row(array, to); });
   impl_->frames.append(impl_->record.data());
   impl_->last_time = frame.time;
 }

@@ -3,6 +3,7 @@
 #include "core/check.hpp"
 #include "core/files.hpp"
 #include "model/append_file.hpp"
+#include "model/frame_row.hpp"
 #include "model/parts_folder.hpp"
 
 #include <algorithm>
@@ -19,11 +20,6 @@ void visit_arrays(Frame& frame, F&& f) {
   f("pore_pressure", frame.pore_pressure, true);
   f("stress", frame.stress, false);
   f("strain", frame.strain, false);
-}
-
-template <class Array>
-constexpr std::size_t width_of(const Array&) {
-  return sizeof(typename Array::value_type) / sizeof(double);
 }
 
 std::size_t record_doubles(const QuadMesh& mesh) {
@@ -91,10 +87,7 @@ void ResumableHistoryWriter::append(const FemFrame& frame) {
   });
   double* to = impl_->record.data();
   *to++ = frame.time;
-  visit_arrays(frame, [&](const char*, const auto& array, bool) {
-    const auto* values = reinterpret_cast<const double*>(array.data());
-    to = std::copy_n(values, array.size() * width_of(array), to);
-  });
+  visit_arrays(frame, [&](const char*, const auto& array, bool) { to = put_row(array, to); });
   impl_->frames.append(impl_->record.data());
 }
 
@@ -104,10 +97,7 @@ FemFrame ResumableHistoryWriter::frame(std::size_t index) {
   FemFrame frame;
   frame.time = *from++;
   visit_arrays(frame, [&](const char*, auto& array, bool nodal) {
-    array.resize(impl_->rows(nodal));
-    const std::size_t n = array.size() * width_of(array);
-    std::copy_n(from, n, reinterpret_cast<double*>(array.data()));
-    from += n;
+    from = take_row(from, impl_->rows(nodal), array);
   });
   return frame;
 }

@@ -44,7 +44,8 @@ Choice choose_columns(const std::string& name, std::size_t columns, const Record
   if (format.time_column > 0) choice.time = static_cast<std::size_t>(format.time_column);
   validate(choice.acceleration > 0,
            "{}: {} columns (time and acceleration are expected, or acceleration alone) name the "
-           "column of acceleration and, if there is one, of time",
+           "column of acceleration and, if there is one, of time; of values that stand several to "
+           "a line, write one to a line",
            name, columns);
   validate(choice.acceleration <= columns && choice.time <= columns &&
                choice.acceleration != choice.time,

@@ -2,9 +2,11 @@
 
 #include "core/check.hpp"
 #include "core/conventions.hpp"
+#include "motion/measures.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace flowslide {
@@ -77,12 +79,23 @@ std::vector<std::string> implausible(const std::string& name, double peak, doubl
         "{}the peak is {:.2g} g, which nobody would feel. Is the unit of acceleration right?", of,
         peak / kGravity));
   // Records have 0.001 to 0.02 s; in 0.1 s nothing is left above 5 Hz.
-  if (!(step >= 1e-4 && step <= 0.1))
+  if (is_set(step) && !(step >= 1e-4 && step <= 0.1))
     odd.push_back(fmt::format(
         "{}the time step is {:.3g} s, where records have 0.001 to 0.02 s. Is the unit of time "
         "right?",
         of, step));
   return odd;
+}
+
+std::string implausible_velocity(const std::string& name, const GroundMotion& motion) {
+  // The ground of the Chi-Chi earthquake reached about 4 m/s beside the fault.
+  constexpr double kMost = 5.0;
+  const double peak = pgv(motion);
+  if (peak <= kMost) return {};
+  return fmt::format(
+      "{}the velocity reaches {:.3g} m/s and ends at {:.3g} m/s. No record exceeds 5 m/s; does the "
+      "acceleration have an offset (`baseline`), or another unit?",
+      name.empty() ? "" : name + ": ", peak, std::abs(velocity(motion).back()));
 }
 
 }  // namespace flowslide

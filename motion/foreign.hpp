@@ -1,4 +1,5 @@
 #pragma once
+#include "model/ground_motion.hpp"
 #include "motion/record_text.hpp"
 
 #include <string>
@@ -12,7 +13,12 @@ namespace flowslide {
 void refuse_foreign_format(const RecordText& text);
 
 /// A peak that cannot be that of an earthquake or is too small to matter, and a time step in which
-/// no recorder records, as sentences; they start with the name, if it is not empty.
+/// no recorder records (not looked at if unset), as sentences; they start with the name, if it is
+/// not empty.
 std::vector<std::string> implausible(const std::string& name, double peak, double step);
+
+/// A velocity that no ground has, as a sentence, or nothing: acceleration that does not come back
+/// to zero, or peaks of another unit that last.
+std::string implausible_velocity(const std::string& name, const GroundMotion& motion);
 
 }  // namespace flowslide

@@ -38,25 +38,12 @@ double time_of_share(const std::vector<double>& energy, double dt, double share)
 
 double pga(const GroundMotion& motion) { return peak(motion.acceleration); }
 double pgv(const GroundMotion& motion) { return peak(velocity(motion)); }
-double pgd(const GroundMotion& motion) { return peak(displacement(motion)); }
 
 std::vector<double> velocity(const GroundMotion& motion) {
   const std::vector<double>& a = motion.acceleration;
   std::vector<double> v(a.size(), 0.0);
   for (std::size_t i = 1; i < a.size(); ++i) v[i] = v[i - 1] + 0.5 * motion.dt * (a[i - 1] + a[i]);
   return v;
-}
-
-std::vector<double> displacement(const GroundMotion& motion) {
-  const std::vector<double>& a = motion.acceleration;
-  const double dt = motion.dt;
-  double v = 0.0;
-  std::vector<double> d(a.size(), 0.0);
-  for (std::size_t i = 1; i < a.size(); ++i) {
-    d[i] = d[i - 1] + dt * v + dt * dt * (a[i - 1] / 3.0 + a[i] / 6.0);
-    v += 0.5 * dt * (a[i - 1] + a[i]);
-  }
-  return d;
 }
 
 double arias_intensity(const GroundMotion& motion) {

@@ -11,12 +11,10 @@ namespace flowslide {
 
 double pga(const GroundMotion& motion);  ///< max |a| [m/s2]
 double pgv(const GroundMotion& motion);  ///< max |v| [m/s]
-double pgd(const GroundMotion& motion);  ///< max |d| [m]
 
 /// Velocity at every sample, by the trapezoidal rule [m/s].
 std::vector<double> velocity(const GroundMotion& motion);
 /// Displacement at every sample; exact for acceleration that is straight between samples [m].
-std::vector<double> displacement(const GroundMotion& motion);
 
 /// Arias intensity, pi / (2 g) times the integral of a^2 [m/s].
 double arias_intensity(const GroundMotion& motion);

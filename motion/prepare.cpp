@@ -133,9 +133,12 @@ GroundMotion prepare_motion(const MotionConfig& config, const Progress& progress
   const bool changed = config.baseline || config.filter || config.resample;
   if (config.pga && (config.record || config.synthetic || changed))
     motion = scaled_to_pga(motion, *config.pga);
-  if (warnings)
+  if (warnings) {
     for (std::string& odd : implausible("", pga(motion), motion.dt))
       warnings->push_back(std::move(odd));
+    if (std::string odd = implausible_velocity("", motion); !odd.empty())
+      warnings->push_back(std::move(odd));
+  }
   return motion;
 }
 

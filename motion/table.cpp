@@ -1,6 +1,7 @@
 #include "motion/table.hpp"
 
 #include "core/conventions.hpp"
+#include "motion/foreign.hpp"
 
 #include <algorithm>
 
@@ -20,6 +21,8 @@ MotionRow measure_record(const std::filesystem::path& path, std::optional<double
                 .measures = measure(record.motion),
                 .notes = std::move(record.notes),
                 .warnings = std::move(record.warnings)};
+  if (std::string odd = implausible_velocity(path.filename().string(), record.motion); !odd.empty())
+    row.warnings.push_back(std::move(odd));
   if (scale_to) {
     const double factor = *scale_to / row.measures.pga;
     row.measures.pgv *= factor;

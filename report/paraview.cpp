@@ -1,10 +1,10 @@
 #include "report/paraview.hpp"
 
 #include "core/check.hpp"
+#include "core/files.hpp"
 #include "model/vtk_writer.hpp"
 
 #include <array>
-#include <system_error>
 
 namespace flowslide {
 namespace {
@@ -14,13 +14,7 @@ using Series = std::vector<std::pair<double, std::filesystem::path>>;
 void write_flow(const std::filesystem::path& out, const MpmHistory& flow,
                 const Progress& progress) {
   const std::filesystem::path folder = out / "flow";
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error)
-    throw FileError(fmt::format(
-        "{}: cannot be made a folder ({}) choose another place for the report or remove what is "
-        "there",
-        folder.string(), error.message()));
+  make_folders(folder);
   Series series;
   for (std::size_t k = 0; k < flow.num_frames(); ++k) {
     if (progress.should_stop())

@@ -9,20 +9,8 @@
 #include "report/plot_data.hpp"
 #include "report/tables.hpp"
 
-#include <system_error>
-
 namespace flowslide {
 namespace {
-
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error)
-    throw FileError(fmt::format(
-        "{}: cannot be made a folder ({}) choose another place for the report or remove what is "
-        "there",
-        folder.string(), error.message()));
-}
 
 /// Everything below indexes the zone by elements of the mesh.
 void check_zone(const LiquefactionZone& zone, std::size_t elements) {
@@ -41,7 +29,7 @@ ReportFacts write_report(const ReportInputs& in, const ReportConfig& config,
   const FinalState end = final_state(in.particles, in.flow, config);
   ReportFacts facts = compute_facts(in.zone, in.flow, end, config);
   facts.zone_shares = zone_shares(in.history.mesh(), in.zone);
-  make_folder(out / "data");
+  make_folders(out / "data");
   write_file(out / "runout.csv", runout_csv(in.flow.samples(), facts.toe));
   write_file(out / "zone.csv", zone_csv(in.zone.history));
   write_plot_data(out / "data", in.history, in.zone, in.flow, end, facts, config, in.stages);

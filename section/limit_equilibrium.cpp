@@ -178,13 +178,6 @@ std::optional<double> bishop(const std::vector<Slice>& slices) {
   return std::nullopt;
 }
 
-std::optional<double> force_equilibrium(const std::vector<Slice>& slices, double inclination) {
-  if (slices.empty() || !(driving(slices) > 0.0)) return std::nullopt;
-  const auto inverse = force_balance(terms_of(slices, inclination));
-  if (!inverse) return std::nullopt;
-  return 1.0 / *inverse;
-}
-
 namespace {
 
 /// Balance of forces at an inclination, with the moment that is left.

@@ -35,10 +35,6 @@ std::optional<double> ordinary(const std::vector<Slice>& slices);
 /// only. Empty if it does not converge or a slice has no admissible normal force.
 std::optional<double> bishop(const std::vector<Slice>& slices);
 
-/// Force equilibrium alone, with parallel forces between slices of a given inclination [rad], as
-/// procedures of the Corps of Engineers use it. Surfaces of any shape.
-std::optional<double> force_equilibrium(const std::vector<Slice>& slices, double inclination);
-
 struct SpencerResult {
   double factor = 0.0;
   double inclination =

@@ -56,7 +56,6 @@ MeshQuality measure_quality(const QuadMesh& mesh) {
     take(quality.aspect, s.aspect, e, false);
     take(quality.angle, s.angle, e, false);
     take(quality.shortest_edge, s.shortest, e, true);
-    take(quality.longest_edge, s.longest, e, false);
     take(quality.thickness, s.thickness, e, true);
     thickness.push_back(s.thickness);
   }

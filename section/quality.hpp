@@ -17,7 +17,6 @@ struct MeshQuality {
   WorstElement aspect;          ///< ratio of the lengths of the two mid-lines, largest
   WorstElement angle;           ///< corner angle farthest from 90 degrees: the distance [deg]
   WorstElement shortest_edge;   ///< [m]
-  WorstElement longest_edge;    ///< [m]
   /// Smallest area over longest edge, the distance a wave crosses in an explicit step [m].
   WorstElement thickness;
   double median_thickness = 0.0;  ///< [m]

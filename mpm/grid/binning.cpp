@@ -96,7 +96,10 @@ namespace {
 
 /// A point so far that no number is left for its block.
 template <int Dim>
-[[noreturn]] void refuse_escape(const Points<Dim>& p, std::size_t q, double x) {
+[[noreturn]] void refuse_escape(const Points<Dim>& p, std::size_t q) {
+  double x = 0.0;
+  for (int d = 0; d < Dim; ++d)
+    if (!(std::abs(p.x[d][q]) <= std::abs(x))) x = p.x[d][q];
   throw NumericsError(
       fmt::format("particle {} (counted from 0 in order of id) has left for {:.3g} m (farther than "
                   "the grid can number) check its stress, its velocity and the strength of its "
@@ -114,19 +117,26 @@ std::int32_t find_blocks(const Points<Dim>& p, const Grid<Dim>& grid, double bas
   scratch.key.resize(n);
   scratch.place.resize(n);
   const double inverse = 1.0 / grid.h;
-  scratch.blocks.clear();
-  std::int32_t materials = 1;
+  constexpr std::int64_t kEscaped = -1;
+#pragma omp parallel for schedule(static) num_threads(static_cast <int>(scratch.copy.size()))
   for (std::size_t i = 0; i < n; ++i) {
     Coordinate<Dim> block{};
     std::int64_t cell = 0;
+    bool escaped = false;
     for (int d = Dim - 1; d >= 0; --d) {
       const double base = std::floor((p.x[d][i] - grid.origin[d]) * inverse - basis_shift);
-      if (!(std::abs(base) < kFarthest * B)) refuse_escape(p, i, p.x[d][i]);
+      escaped = escaped || !(std::abs(base) < kFarthest * B);
+      if (escaped) break;
       block[d] = static_cast<std::int32_t>(std::floor(base / B));
       cell = cell * B + (static_cast<std::int32_t>(base) - block[d] * B);
     }
-    scratch.key[i] = pack<Dim>(block);
+    scratch.key[i] = escaped ? kEscaped : pack<Dim>(block);
     scratch.place[i] = cell;
+  }
+  std::int32_t materials = 1;
+  scratch.blocks.clear();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (scratch.key[i] == kEscaped) refuse_escape(p, i);
     materials = std::max(materials, p.material[i] + 1);
     if (i == 0 || scratch.key[i] != scratch.key[i - 1]) scratch.blocks.push_back(scratch.key[i]);
   }

@@ -16,12 +16,13 @@ namespace {
 /// its rate of deformation would stay and its volume grow exponentially. As in free flight it falls
 /// with time, D' = -D^2; the spin stays, and with it the angular momentum.
 template <int Dim, class Basis>
-void thin_debris(Simulation<Dim>& s) {
+void thin_debris(Simulation<Dim>& s, int threads) {
   const double since = s.time - s.binned;
   s.binned = s.time;
   if (!(since > 0.0)) return;
   Points<Dim>& p = s.points;
   const double reach = Basis::nodes * s.grid.h;
+#pragma omp parallel for schedule(static) num_threads(threads)
   for (std::size_t q = 0; q < p.size(); ++q) {
     // V > reach L^(Dim-1), with L^Dim the point's volume without gaps.
     const double full = p.mass[q] / s.largest_density[p.material[q]];
@@ -168,7 +169,7 @@ void prepare(Simulation<Dim>& s, StepScratch<Dim>& scratch, bool rebin) {
   if (rebin) {
     let_out(s.outlet, s.points, s.gone);
     const double shift = visit_basis(s.settings.basis, [&]<class Basis>(Basis) {
-      thin_debris<Dim, Basis>(s);
+      thin_debris<Dim, Basis>(s, static_cast<int>(scratch.tile.size()));
       return Basis::shift;
     });
     if constexpr (Dim == 3)
@@ -181,7 +182,11 @@ void prepare(Simulation<Dim>& s, StepScratch<Dim>& scratch, bool rebin) {
   }
   visit_basis(s.settings.basis, [&]<class Basis>(Basis) {
     if (rebin) measure_dashpots<Dim, Basis>(s.grid, s.points, s.materials, s.contact.absorbing);
-    place_walls<Dim, Basis>(s.grid, s.ground, s.rollers, s.contact);
+    // Walls hang on the active blocks, dashpots on the soil at the planes too.
+    if (!s.contact.absorbing.dashpots.empty() || scratch.walled != s.grid.blocks) {
+      place_walls<Dim, Basis>(s.grid, s.ground, s.rollers, s.contact);
+      scratch.walled = s.grid.blocks;
+    }
     scratch.windows.resize(s.tiling.tiles.size() * kWindowNodes<Dim, Basis>);
   });
   find_points(s.loads, s.points, s.tiling);
@@ -208,7 +213,6 @@ void prepare(Simulation<Dim>& s, StepScratch<Dim>& scratch, bool rebin) {
   scratch.sleep_work.resize(scratch.asleep.tiles.empty() ? 0 : s.tiling.tiles.size());
   scratch.grid_work.resize(s.grid.blocks.size());
   scratch.gain2.resize(s.grid.blocks.size());
-  scratch.at_walls.reserve(s.contact.nodes.size());
   const bool fmpm = s.settings.transfer == Transfer::fmpm;
   if (fmpm || s.settings.update != Update::symplectic) scratch.second.resize(s.grid.nodes.size());
   if (fmpm) scratch.third.resize(s.grid.nodes.size());

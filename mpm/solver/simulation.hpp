@@ -75,8 +75,8 @@ struct StepScratch {
   std::vector<StressWork> stress_work;  ///< per tile
   std::vector<double> gain2;            ///< per block, of update_momentum [m2/s2]
   double gain2_at_walls = 0.0;          ///< the largest at contact nodes; way.hpp
-  std::vector<typename Contact<Dim>::Vector> at_walls;  ///< buffer of gains_at_walls
-  std::vector<Way> ways;                  ///< per tile, where the step had to be looked at
+  std::vector<Coordinate<Dim>> walled;  ///< active blocks that the walls were placed for
+  std::vector<Way> ways;                ///< per tile, where the step had to be looked at
   std::vector<GridWork<Dim>> grid_work;   ///< per block
   std::vector<GridWork<Dim>> sleep_work;  ///< per tile, of those asleep
   GridWork<Dim> contact_work;

@@ -173,7 +173,7 @@ struct Phases {
     const auto raise = [](double& most, double gain2) {
       if (!(gain2 <= most)) most = gain2;
     };
-    gains_at_walls(s, scratch.light, scratch.at_walls, [&](std::int32_t node, double gain2) {
+    gains_at_walls(s, scratch.light, [&](std::int32_t node, double gain2) {
       raise(scratch.gain2_at_walls, gain2);
       raise(scratch.gain2[node / kBlockNodes<Dim>], gain2);
     });

@@ -19,26 +19,21 @@ double little_gain(const Simulation<Dim>& s) noexcept {
   return 0.5 * std::min(s.settings.velocity_limit, s.settings.strain_limit) * s.grid.h / s.dt;
 }
 
-/// Calls f(node, square of its change of velocity) for every contact node, with the impulses that
-/// the walls gave in the last step: before them the lowest nodes carry the weight of all soil above
-/// and seem to fall. `change` is a buffer. Weighed as by update_momentum.
+/// Calls f(node, square of its change of velocity) for every contact node, with what the walls gave
+/// in the last step: before them the lowest nodes carry the weight of all soil above and seem to
+/// fall. Weighed as by update_momentum.
 template <int Dim, class F>
-void gains_at_walls(const Simulation<Dim>& s, double light,
-                    std::vector<typename Contact<Dim>::Vector>& change, F&& f) noexcept {
+void gains_at_walls(const Simulation<Dim>& s, double light, F&& f) noexcept {
   using L = NodeLayout<Dim>;
   const Contact<Dim>& c = s.contact;
   const double floor = kMassFloor * s.full_mass;
-  change.assign(c.nodes.size(), {});
-  for (std::size_t w = 0; w < c.walls.size(); ++w)
-    for (std::int32_t e = c.walls[w].first; e < c.walls[w].last; ++e)
-      for (int d = 0; d < Dim; ++d) change[c.node[e]][d] += c.weight[e] * c.impulse[w][d];
   for (std::size_t k = 0; k < c.nodes.size(); ++k) {
     const auto& q = s.grid.nodes[c.nodes[k]].q;
     const double m = q[L::mass];
     if (!(m > floor)) continue;
     double change2 = 0.0;
     for (int d = 0; d < Dim; ++d) {
-      const double gain = q[L::force + d] + change[k][d] / m;
+      const double gain = q[L::force + d] + c.given[k][d] / m;
       change2 += gain * gain;
     }
     const double share = light > 0.0 ? std::min(1.0, m / light) : 1.0;

@@ -39,6 +39,7 @@ struct Contact {
   std::vector<std::uint64_t> in_block;  ///< per block: a bit for each of its contact nodes
   // Buffers of a step.
   std::vector<Vector> velocity;      ///< per contact node [m/s]
+  std::vector<Vector> given;         ///< per contact node: by the walls in the last step [N s]
   std::vector<double> inverse_mass;  ///< per contact node [1/kg]
   std::vector<double> mobility;      ///< per wall point: sum of weight^2 / mass [1/kg]
   std::vector<Vector> impulse;     ///< per wall point, of the last step: the next one's guess [N s]

@@ -51,7 +51,10 @@ class GridFile {
       ++line_;
       // The end of the line counts, but the last line may have none.
       std::string_view text(line_text_.data(), in_.gcount() - (in_.eof() ? 0 : 1));
-      if (line_ == 1 && text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+      if (line_ == 1) {
+        if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+        expect_text(text);
+      }
       for (std::size_t at = 0; at < text.size();) {
         const std::size_t first = text.find_first_not_of(" \t\r", at);
         if (first == std::string_view::npos) break;
@@ -86,6 +89,17 @@ class GridFile {
   }
 
  private:
+  /// The first bytes of images and of UTF-16 tell themselves.
+  void expect_text(std::string_view start) const {
+    const bool is_text = std::none_of(start.begin(), start.end(), [](char c) {
+      return static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\r';
+    });
+    validate(is_text,
+             "{}: holds control characters (a binary grid such as GeoTIFF, an archive or UTF-16 "
+             "text) export the terrain as Arc/Info ASCII grid, and save it as plain text",
+             name_);
+  }
+
   std::filesystem::path path_;
   std::string name_;
   std::ifstream in_;

@@ -94,12 +94,14 @@ GridWork<Dim> hold_at_walls(Grid<Dim>& grid, Contact<Dim>& c, const MomentumSett
         s.dt);
   if (absorbs) settle_dashpots(grid, c, s.dt, full_mass, work);
   for (std::size_t k = 0; k < c.nodes.size(); ++k) {
+    c.given[k] = {};
     if (!(c.inverse_mass[k] > 0.0)) continue;
     auto& q = grid.nodes[c.nodes[k]].q;
     const double m = q[L::mass];
     for (int d = 0; d < Dim; ++d) {
       const double free = q[L::momentum + d], before = free - q[L::force + d];
       const double held = c.velocity[k][d], weight = m * s.gravity[d];
+      c.given[k][d] = m * (held - free);
       const double load = load_on<Dim>(q, d);
       const double drag = damping_at_wall(s, m, before, held);
       const double after = held + s.dt * drag / m, change = after - free;

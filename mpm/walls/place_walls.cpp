@@ -220,6 +220,7 @@ void number_nodes(const std::vector<std::int32_t>& grid_node, std::size_t blocks
 template <int Dim>
 void size_buffers(Contact<Dim>& c) {
   c.velocity.resize(c.nodes.size());
+  c.given.assign(c.nodes.size(), {});
   c.inverse_mass.resize(c.nodes.size());
   c.mobility.resize(c.walls.size());
   c.fresh.resize(c.walls.size());

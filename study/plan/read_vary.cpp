@@ -1,5 +1,6 @@
 #include "core/elementary.hpp"
 #include "core/files.hpp"
+#include "core/odd_characters.hpp"
 #include "study/plan/read_parts.hpp"
 #include "study/plan/yaml_read.hpp"
 
@@ -139,6 +140,11 @@ Lines read_csv(const YamlNode& node) {
   } catch (const FileError& e) {
     throw FileError(node.error(e.what()).what());
   }
+  if (text.find('\0') != std::string::npos)
+    throw node.error(
+        fmt::format("{}: holds NUL bytes (a binary file or UTF-16 text) save it as CSV in UTF-8.",
+                    path.string()));
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   Lines lines;
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);) {
@@ -147,9 +153,18 @@ Lines read_csv(const YamlNode& node) {
     std::vector<std::string>& cells = lines.emplace_back();
     std::istringstream parts(line);
     for (std::string cell; std::getline(parts, cell, ',');) cells.push_back(trimmed(cell));
+    const std::string odd = line.find(';') != std::string::npos
+                                ? "has semicolons (commas part the cells) write ',' between cells "
+                                  "and '.' in numbers"
+                                : odd_characters(line);
     if (cells.size() != lines.front().size())
-      throw node.error(fmt::format("{}: the line '{}' has {} cells, the header {}. Mend it.",
-                                   path.string(), line, cells.size(), lines.front().size()));
+      throw node.error(fmt::format("{}: the line '{}' has {} cells, the header {}. {}.",
+                                   path.string(), line, cells.size(), lines.front().size(),
+                                   odd.empty() ? "Mend it" : "It " + odd));
+    // The first cell is a name, and names may have what numbers have not.
+    for (std::size_t i = 1; i < cells.size() && lines.size() > 1; ++i)
+      if (const std::string inside = odd_characters(cells[i]); !inside.empty())
+        throw node.error(fmt::format("{}: '{}' {}.", path.string(), cells[i], inside));
   }
   if (lines.size() < 2) throw node.error("holds no row (a header and a row are expected).");
   return lines;

@@ -1,5 +1,6 @@
 #include "study/run/pool.hpp"
 
+#include "core/clock.hpp"
 #include "study/run/child.hpp"
 #include "study/run/tidy.hpp"
 #include "study/run/work_costs.hpp"
@@ -18,12 +19,6 @@
 
 namespace flowslide::study {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 constexpr double kPatience =
     60.0;  ///< between a polite signal and the one that nobody survives [s]

@@ -201,6 +201,10 @@ TEST_CASE("an interpreter that a workflow names is not run without the user's wo
   CHECK_THAT(o.err, Contains("--allow-python"));
   CHECK_FALSE(std::filesystem::exists(scratch / "out"));
   CHECK_FALSE(std::filesystem::exists(scratch / "ran"));
+  const Outcome before =
+      call(scratch, "check " + test::source("workflows/mochikoshi-static.yaml") + set);
+  CHECK(before.code == 0);
+  CHECK_THAT(before.err, Contains("note: report: would start") && Contains("--allow-python"));
 }
 
 TEST_CASE("check reads the files that the workflow names", "[cli]") {

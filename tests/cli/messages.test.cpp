@@ -18,7 +18,7 @@ TEST_CASE("words that are no command or stage lead to the nearest", "[cli]") {
 TEST_CASE("what a command line has wrong is named with what may be meant", "[cli]") {
   const Scratch scratch;
   const std::vector<std::pair<std::string, std::string>> cases{
-      {"study runn x.yaml", "no command 'runn'. Did you mean 'flowslide study run'?"},
+      {"study rum x.yaml", "no command 'rum'. Did you mean 'flowslide study run'?"},
       {"run x.yaml --sett a=1", "no option '--sett'. Did you mean '--set'?"},
       {"run x.yaml --thread=2", "no option '--thread'. Did you mean '--threads'?"},
       {"run x.yaml --set a.b=1 m", "in quotes: --set 'a.b=1 m'."},

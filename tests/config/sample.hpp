@@ -1,5 +1,6 @@
 #pragma once
 #include "config/yaml.hpp"
+#include "tests/support/scratch.hpp"
 
 #include <array>
 #include <filesystem>
@@ -7,7 +8,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <unistd.h>
 #include <vector>
 
 /// A file case.yaml in a folder of its own, and settings that use every kind of field.
@@ -15,20 +15,12 @@ namespace flowslide::sample {
 
 class YamlFile {
  public:
-  explicit YamlFile(std::string_view text)
-      : folder_(std::filesystem::temp_directory_path() /
-                ("flowslide-config-" + std::to_string(::getpid()))) {
-    std::filesystem::create_directories(folder_);
-    std::ofstream(path(), std::ios::binary) << text;
-  }
-  YamlFile(const YamlFile&) = delete;
-  YamlFile& operator=(const YamlFile&) = delete;
-  ~YamlFile() { std::filesystem::remove_all(folder_); }
+  explicit YamlFile(std::string_view text) { std::ofstream(path(), std::ios::binary) << text; }
   [[nodiscard]] std::filesystem::path path() const { return folder_ / "case.yaml"; }
-  [[nodiscard]] std::filesystem::path folder() const { return folder_; }
+  [[nodiscard]] std::filesystem::path folder() const { return folder_.path(); }
 
  private:
-  std::filesystem::path folder_;
+  Scratch folder_;
 };
 
 /// The message of `use(file)` with places as "case.yaml:1:2"; "" if it does not throw.

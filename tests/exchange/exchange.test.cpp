@@ -70,6 +70,21 @@ TEST_CASE("an earthquake record is told from a recorder") {
   CHECK_THAT(inspect(scratch / "r.out")["notes"].dump(), Contains("flowslide motion"));
 }
 
+TEST_CASE("a terrain is told with its place and heights") {
+  const Scratch scratch;
+  const std::string header = "NCOLS 3\nnrows 2\nxllcorner 100\nyllcorner 50\ncellsize 10\n";
+  scratch.write("v.asc", header + "nodata_value -9999\n1 2 3\n4 5 -9999\n");
+  const Json j = inspect(scratch / "v.asc");
+  CHECK(j["kind"] == "terrain");
+  CHECK(j["cell_m"] == 10.0);
+  CHECK(j["east_m"] == Json({105.0, 125.0}));
+  CHECK(j["north_m"] == Json({55.0, 65.0}));
+  CHECK(j["heights_m"] == Json({1.0, 5.0}));
+  CHECK(j["missing"] == 1);
+  scratch.write("cut.asc", header + "1 2 3\n");
+  CHECK_THAT(inspect(scratch / "cut.asc")["problems"].dump(), Contains("ends after 1 rows"));
+}
+
 TEST_CASE("a conversion is chosen by both ends") {
   const Scratch scratch;
   write_history(scratch / "h.h5");

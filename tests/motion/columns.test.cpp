@@ -98,7 +98,8 @@ TEST_CASE("records tell themselves from other tables by their heads", "[motion]"
 
 TEST_CASE("columns can be named", "[motion]") {
   const std::string text = "1 0.00 9 0.1\n2 0.01 9 -0.2\n3 0.02 9 0.3\n";
-  CHECK_THAT(message(text, {.unit = "g"}), Contains("4 columns"));
+  CHECK_THAT(message(text, {.unit = "g"}),
+             Contains("4 columns") && Contains("write one to a line"));
   const Record timed =
       parse_record(text, "a", {.unit = "g", .time_column = 2, .acceleration_column = 4});
   CHECK(timed.motion.acceleration == kExpected);

@@ -1,7 +1,10 @@
 #include "motion/foreign.hpp"
 
 #include "core/check.hpp"
+#include "core/conventions.hpp"
 #include "motion/record.hpp"
+
+#include <cmath>
 
 #include <catch2/catch.hpp>
 
@@ -64,6 +67,19 @@ TEST_CASE("Peaks that no earthquake has are warned about", "[motion]") {
   CHECK(warnings("2.8", "g").empty());
   CHECK(warnings("281", "cm/s2").empty());
   CHECK_THAT(warnings("0.3", "cm/s2"), Contains("nobody would feel"));
+}
+
+TEST_CASE("An acceleration with an offset is told by its velocity", "[motion]") {
+  const auto told = [](double offset) {
+    GroundMotion m;
+    m.dt = 0.01;
+    for (int i = 0; i <= 1000; ++i)
+      m.acceleration.push_back(offset + std::sin(0.02 * kPi * i));  // ten times 1 s
+    return implausible_velocity("a.txt", m);
+  };
+  CHECK(told(0.0).empty());
+  CHECK(told(0.4).empty());
+  CHECK_THAT(told(1.0), Contains("a.txt: the velocity reaches 10") && Contains("ends at 10 m/s"));
 }
 
 TEST_CASE("A time in milliseconds is warned about", "[motion]") {

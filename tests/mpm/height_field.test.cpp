@@ -255,3 +255,13 @@ TEST_CASE("A terrain that is no file, or that cannot be in its file, is refused 
   CHECK_THAT(error("ncols 2\n" + std::string(5u << 20u, '1')),
              Contains("valley.asc:2") && Contains("more than 4 MiB"));
 }
+
+TEST_CASE("A terrain that is no plain text is named as such", "[mpm]") {
+  using namespace std::string_literals;
+  std::string wide = "\xFF\xFE";
+  for (const char c : std::string(kGrid)) wide += {c, '\0'};
+  for (const std::string& bytes : {"II*\0\x08\0\0\0"s, "\0\x10\0\x10"s, "PK\x03\x04"s, wide})
+    CHECK_THROWS_WITH(read_text(bytes), Contains("valley.asc: holds control characters (a binary "
+                                                 "grid such as GeoTIFF, an archive or UTF-16"));
+  CHECK(read_text("\xEF\xBB\xBF"s + kGrid).at(105.0, 55.0) == 9.0);
+}

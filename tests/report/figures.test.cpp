@@ -1,7 +1,7 @@
 #include "report/figures.hpp"
 
 #include "core/check.hpp"
-#include "core/hash.hpp"
+#include "core/hashed_file.hpp"
 #include "report/plot_data.hpp"
 #include "report/tables.hpp"
 #include "tests/report/dam_case.hpp"
@@ -75,7 +75,7 @@ TEST_CASE("The same data give the same bytes") {
     REQUIRE(
         draw_figures(scratch / "report", std::nullopt, {}, {"final_materials"}).problem.empty());
     for (const char* file : {"final_materials.svg", "final_materials.png"})
-      sums.push_back(sha256_file(figures / file));
+      sums.push_back(hash_file(figures / file).sha256);
   }
   CHECK(sums[0] == sums[2]);
   CHECK(sums[1] == sums[3]);

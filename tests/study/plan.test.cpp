@@ -71,6 +71,23 @@ TEST_CASE("Ranges, zipped lists, tables and variants", "[study]") {
   CHECK(also.rows[6].variant == "plain");
 }
 
+TEST_CASE("Tables from spreadsheets of other countries are told what is wrong", "[study]") {
+  using namespace std::string_literals;
+  const StudyBench bench;
+  const auto plan = [&](const std::string& csv) {
+    bench.scratch.write("cases.csv", csv);
+    return bench.plan(
+        "  vary: {case: {table: cases.csv, columns: {name: stages.two.with.value, "
+        "a: stages.one.with.value}}}\n");
+  };
+  CHECK(plan("\xEF\xBB\xBFname,a\r\n1,0.5\r\n").rows.size() == 1);
+  CHECK_THROWS_WITH(plan("name;a\n1;0,5\n"), Contains("It has semicolons"));
+  CHECK_THROWS_WITH(plan("name,a\n1,\"0,5\"\n"), Contains("It has a decimal comma"));
+  CHECK_THROWS_WITH(plan("name,a\n1,0.5\xC2\xA0\n"), Contains("non-breaking space"));
+  CHECK_THROWS_WITH(plan("n\0a\0"s), Contains("UTF-16"));
+  CHECK_THROWS_WITH(plan("name,a\n1,2,3\n"), Contains("has 3 cells, the header 2. "));
+}
+
 TEST_CASE("Sampled rows are the same for a seed", "[study]") {
   const StudyBench bench;
   const std::string sample =

@@ -1,7 +1,6 @@
 #include "core/units.hpp"
-#include "importers/opensees.hpp"
-#include "tests/support/paths.hpp"
 #include "tests/support/scratch.hpp"
+#include "tests/transfer/fixture_dam.hpp"
 #include "transfer/sordo2024/compat_sordo2024.hpp"
 
 #include <algorithm>
@@ -44,23 +43,8 @@ Table read_table(const std::string& name) {
 }
 
 void import_dam(const std::filesystem::path& out) {
-  const std::filesystem::path folder = test::fixture("opensees/dam-rio270");
-  OpenSeesConfig c;
-  c.mesh.nodes = {folder / "nodeinfo.dat"};
-  c.mesh.elements = {folder / "elementinfo.dat"};
-  c.units = {"m", "s", "kPa"};
-  c.materials = {{"embankment", {167, 1690.0, {}}},
-                 {"tailings", {168, 1870.0, {}}},
-                 {"foundation", {170, 1900.0, {}}}};
-  c.gravity.stress = {folder / "Gstress.out"};
-  c.gravity.strain = InputFile{folder / "Gstrain.out"};
-  c.gravity.pore_pressure = {folder / "GporePressure.out"};
-  c.shaking.emplace();
-  c.shaking->displacement = {folder / "displacement.out.gz"};
-  c.shaking->velocity = {folder / "velocity.out.gz"};
-  c.shaking->pore_pressure = {folder / "porePressure.out.gz"};
-  c.shaking->stress = {folder / "stress.out.gz"};
-  c.shaking->strain = {folder / "strain.out.gz"};
+  OpenSeesConfig c = test::shaken_fixture_dam();
+  c.gravity.strain = InputFile{test::fixture("opensees/dam-rio270/Gstrain.out")};
   import_opensees(c, out);
 }
 

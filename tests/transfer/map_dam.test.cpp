@@ -1,10 +1,9 @@
-#include "importers/opensees.hpp"
-#include "tests/support/paths.hpp"
+#include "tests/support/scratch.hpp"
+#include "tests/transfer/fixture_dam.hpp"
 #include "transfer/map/map_state.hpp"
 
 #include <cmath>
 #include <filesystem>
-#include <unistd.h>
 
 #include <catch2/catch.hpp>
 
@@ -14,22 +13,10 @@ namespace {
 
 /// The dam of the fixture at rest.
 FemHistory import_at_rest() {
-  const std::filesystem::path folder = test::fixture("opensees/dam-rio270");
-  const auto out =
-      std::filesystem::temp_directory_path() / fmt::format("flowslide-map-dam-{}.h5", getpid());
-  OpenSeesConfig c;
-  c.mesh.nodes = {folder / "nodeinfo.dat"};
-  c.mesh.elements = {folder / "elementinfo.dat"};
-  c.units = {"m", "s", "kPa"};
-  c.materials = {{"embankment", {167, 1690.0, {}}},
-                 {"tailings", {168, 1870.0, {}}},
-                 {"foundation", {170, 1900.0, {}}}};
-  c.gravity.stress = {folder / "Gstress.out"};
-  c.gravity.pore_pressure = {folder / "GporePressure.out"};
-  import_opensees(c, out);
-  FemHistory history(out);
-  std::filesystem::remove(out);
-  return history;
+  const Scratch scratch;
+  const auto out = scratch / "history.h5";
+  import_opensees(test::fixture_dam(), out);
+  return FemHistory(out);
 }
 
 /// All tailings have liquefied; S_r = 0.4616 sigma'_v0^0.576 in kPa.

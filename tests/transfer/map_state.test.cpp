@@ -3,6 +3,7 @@
 #include "config/yaml.hpp"
 #include "core/conventions.hpp"
 #include "distorted_mesh.hpp"
+#include "tests/support/scratch.hpp"
 #include "transfer/sordo2024/map_sordo2024.hpp"
 
 #include <cmath>
@@ -349,8 +350,7 @@ TEST_CASE("Data that do not fit together are refused", "[transfer]") {
 }
 
 TEST_CASE("The same state comes from a file, and the audit is written", "[transfer]") {
-  const auto folder = std::filesystem::temp_directory_path() / "flowslide_map_state_test";
-  std::filesystem::create_directories(folder);
+  const Scratch folder;
   const QuadMesh mesh = ground(0.15);
   const FemFrame gravity = geostatic(mesh);
   {
@@ -374,12 +374,12 @@ TEST_CASE("The same state comes from a file, and the audit is written", "[transf
   CHECK(json.at("passed") == true);
   CHECK(json.at("counts").at("points") == a.particles.size());
   CHECK(json.at("checks").at(0).at("name") == "mass");
-  CHECK_THROWS_AS(write_audit(folder / "absent" / "audit.json", a.audit), FileError);
-  std::filesystem::remove_all(folder);
+  CHECK_THROWS_AS(write_audit(folder / "absent/audit.json", a.audit), FileError);
 }
 
 TEST_CASE("The published script's points are audited but not judged", "[transfer]") {
-  const auto path = std::filesystem::temp_directory_path() / "flowslide_map_sordo_test.h5";
+  const Scratch folder;
+  const auto path = folder / "history.h5";
   const QuadMesh mesh = ground(0.15);
   FemFrame gravity = geostatic(mesh);
   {
@@ -399,7 +399,6 @@ TEST_CASE("The published script's points are audited but not judged", "[transfer
   c.soils.tailings = "1";
   CHECK_THROWS_WITH(map_sordo2024_audited(FemHistory(path), at_rest, c),
                     Catch::Contains("tailings: 1 is a tag"));
-  std::filesystem::remove(path);
   CHECK(r.particles.size() == 4 * mesh.num_elements());
   CHECK(r.audit.passed());
   CHECK_FALSE(r.audit.notes.empty());
@@ -409,8 +408,8 @@ TEST_CASE("The published script's points are audited but not judged", "[transfer
 }
 
 TEST_CASE("Settings of the map are read from YAML", "[transfer]") {
-  const auto path = std::filesystem::temp_directory_path() / "flowslide_map_config_test.yaml";
-  std::ofstream(path) << R"(cell: 1.25 m
+  const Scratch folder;
+  const auto path = folder.write("map.yaml", R"(cell: 1.25 m
 c_soft_ratio: 0.5
 box: {left: -340 m, right: 87.5 m, bottom: -5 m}
 return: mean_stress
@@ -424,7 +423,7 @@ materials:
     linear_elastic: {youngs_modulus: 100 MPa, poisson_ratio: 0.3}
     counts_for_runout: false
 audit: {enforce: false}
-)";
+)");
   MapConfig c = read_settings<MapConfig>(load_yaml(path), "map");
   CHECK_NOTHROW(check(c));
   CHECK(c.cell == 1.25);
@@ -449,5 +448,4 @@ audit: {enforce: false}
   bad.materials["sand"] = soil();
   bad.materials["sand"].of = {"sand 1", "sand 2"};
   CHECK_NOTHROW(check(bad));
-  std::filesystem::remove(path);
 }

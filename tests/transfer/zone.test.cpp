@@ -1,12 +1,12 @@
 #include "transfer/zone/zone.hpp"
 
 #include "core/check.hpp"
+#include "tests/support/scratch.hpp"
 #include "tests/transfer/zone_grid.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <unistd.h>
 
 #include <catch2/catch.hpp>
 
@@ -21,9 +21,7 @@ constexpr double kWater = 9.81e3;  // gamma_w [Pa/m]
 /// are material 2, the rest 1. Frame k has r_u = 0.8 at y >= levels[k] and 0.3 below.
 class Column {
  public:
-  explicit Column(const std::vector<double>& levels)
-      : path_(std::filesystem::temp_directory_path() /
-              fmt::format("flowslide-zone-{}-{}.h5", getpid(), next_++)) {
+  explicit Column(const std::vector<double>& levels) {
     for (std::size_t e = 0; e < 20; ++e) mesh.element_material[e] = 2;
     FemHistoryWriter writer(path_, mesh, {{"sand", 1, 2000.0}, {"rock", 2, 1500.0}}, {});
     FemFrame gravity = rest();
@@ -40,10 +38,6 @@ class Column {
     }
     writer.finish();
   }
-  ~Column() { std::filesystem::remove(path_); }
-  Column(const Column&) = delete;
-  Column& operator=(const Column&) = delete;
-
   [[nodiscard]] LiquefactionZone find(const ZoneConfig& config) const {
     return find_zone(FemHistory(path_), config);
   }
@@ -66,8 +60,8 @@ class Column {
     return f;
   }
 
-  static inline int next_ = 0;
-  std::filesystem::path path_;
+  Scratch folder_;
+  std::filesystem::path path_ = folder_ / "history.h5";
 };
 
 ZoneConfig column_config() {
@@ -125,8 +119,8 @@ TEST_CASE("an imposed r_u gives its exact depth, zone and strength", "[transfer]
 TEST_CASE("soil above liquefied soil can keep its strength", "[transfer]") {
   // Liquefied from y = 4 to 7, an r_u of 0.2 above.
   const Column column({4.0});
-  const auto path =
-      std::filesystem::temp_directory_path() / fmt::format("flowslide-zone-above-{}.h5", getpid());
+  const Scratch folder;
+  const auto path = folder / "history.h5";
   {
     const FemHistory whole = column.history();
     FemHistoryWriter writer(path, column.mesh, {{"sand", 1, 2000.0}, {"rock", 2, 1500.0}}, {});
@@ -142,7 +136,6 @@ TEST_CASE("soil above liquefied soil can keep its strength", "[transfer]") {
   const LiquefactionZone all = find_zone(FemHistory(path), config);
   config.zone = ZoneExtent::liquefied;
   const LiquefactionZone only = find_zone(FemHistory(path), config);
-  std::filesystem::remove(path);
   CHECK(only.lower_boundary == all.lower_boundary);
   CHECK(only.window_depth_max == all.window_depth_max);
   for (std::size_t e = 0; e < column.mesh.num_elements(); ++e) {
@@ -199,8 +192,8 @@ TEST_CASE("averages over less than the recording interval are named", "[transfer
 TEST_CASE("a record that ends before the motion is named", "[transfer]") {
   const auto told = [](double frequency_of_decay) {
     const Column column(std::vector<double>(20, 7.0));
-    const auto path = std::filesystem::temp_directory_path() /
-                      fmt::format("flowslide-zone-record-{}.h5", getpid());
+    const Scratch folder;
+    const auto path = folder / "history.h5";
     const FemHistory history = column.history();
     FemHistoryWriter writer(path, column.mesh, {{"sand", 1, 2000.0}, {"rock", 2, 1500.0}}, {});
     writer.set_gravity(history.gravity());
@@ -212,7 +205,6 @@ TEST_CASE("a record that ends before the motion is named", "[transfer]") {
     }
     writer.finish();
     const LiquefactionZone zone = find_zone(FemHistory(path), column_config());
-    std::filesystem::remove(path);
     return std::ranges::count_if(
         zone.notes, [](const std::string& n) { return n.starts_with("the record ends at 10 s"); });
   };
@@ -355,8 +347,8 @@ TEST_CASE("settings that do not fit the mesh or each other are refused", "[trans
 TEST_CASE("a single node decides the depth of single nodes only, and r_u above 1.2 is named",
           "[transfer]") {
   const Column column({7.0});
-  const auto path =
-      std::filesystem::temp_directory_path() / fmt::format("flowslide-zone-lone-{}.h5", getpid());
+  const Scratch folder;
+  const auto path = folder / "history.h5";
   const FemHistory calm = column.history();
   FemHistoryWriter writer(path, column.mesh, {{"sand", 1, 2000.0}, {"rock", 2, 1500.0}}, {});
   writer.set_gravity(calm.gravity());
@@ -365,7 +357,6 @@ TEST_CASE("a single node decides the depth of single nodes only, and r_u above 1
   writer.append(frame);
   writer.finish();
   const LiquefactionZone zone = find_zone(FemHistory(path), column_config());
-  std::filesystem::remove(path);
   CHECK(zone.window_depth_any[0] == 7.0);
   CHECK(zone.window_depth_max[0] == 3.0);
   CHECK(zone.window_depth_interpolated[0] == Approx(3.2));

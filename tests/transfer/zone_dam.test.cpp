@@ -1,41 +1,17 @@
 #include "core/check.hpp"
-#include "importers/opensees.hpp"
-#include "tests/support/paths.hpp"
+#include "tests/support/scratch.hpp"
+#include "tests/transfer/fixture_dam.hpp"
 #include "transfer/zone/zone.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <unistd.h>
 
 #include <catch2/catch.hpp>
 
 using namespace flowslide;
 
 namespace {
-
-std::filesystem::path import_dam() {
-  const std::filesystem::path folder = test::fixture("opensees/dam-rio270");
-  const auto out =
-      std::filesystem::temp_directory_path() / fmt::format("flowslide-dam-{}.h5", getpid());
-  OpenSeesConfig c;
-  c.mesh.nodes = {folder / "nodeinfo.dat"};
-  c.mesh.elements = {folder / "elementinfo.dat"};
-  c.units = {"m", "s", "kPa"};
-  c.materials = {{"embankment", {167, 1690.0, {}}},
-                 {"tailings", {168, 1870.0, {}}},
-                 {"foundation", {170, 1900.0, {}}}};
-  c.gravity.stress = {folder / "Gstress.out"};
-  c.gravity.pore_pressure = {folder / "GporePressure.out"};
-  c.shaking.emplace();
-  c.shaking->displacement = {folder / "displacement.out.gz"};
-  c.shaking->velocity = {folder / "velocity.out.gz"};
-  c.shaking->pore_pressure = {folder / "porePressure.out.gz"};
-  c.shaking->stress = {folder / "stress.out.gz"};
-  c.shaking->strain = {folder / "strain.out.gz"};
-  import_opensees(c, out);
-  return out;
-}
 
 std::size_t sample_near(const ZoneHistory& h, double t) {
   return static_cast<std::size_t>(
@@ -46,7 +22,9 @@ std::size_t sample_near(const ZoneHistory& h, double t) {
 }  // namespace
 
 TEST_CASE("the dam of the fixture liquefies as its README says", "[transfer]") {
-  const std::filesystem::path path = import_dam();
+  const Scratch scratch;
+  const auto path = scratch / "history.h5";
+  import_opensees(test::shaken_fixture_dam(), path);
   ZoneConfig c;
   c.windows = {{"crest", {-40.0, -20.0}}, {"pond", {-70.0, -50.0}}};
   c.liquefiable = {"tailings"};
@@ -56,7 +34,6 @@ TEST_CASE("the dam of the fixture liquefies as its README says", "[transfer]") {
   c.strength.table = {{25e3, 3.0e3}, {50e3, 4.3e3}, {100e3, 6.5e3}, {250e3, 11.1e3}, {325e3, 12e3}};
   const FemHistory history(path);
   const LiquefactionZone zone = find_zone(history, c);
-  std::filesystem::remove(path);
   const ZoneHistory& h = zone.history;
   REQUIRE(h.window_names == std::vector<std::string>{"crest", "pond"});
   REQUIRE(h.time.size() == 31);

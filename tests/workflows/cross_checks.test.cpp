@@ -376,9 +376,9 @@ TEST_CASE("The shaking ends by the rule that chooses the transfer") {
 }
 
 TEST_CASE("Sections have the size of sections") {
-  const auto with = [](double factor, double far = 0.0) {
+  const auto with = [](double factor, double far = 0.0, double higher = 1.0) {
     SectionMesh s = dam();
-    for (Vec2& p : s.mesh.nodes) p = {factor * p[0], factor * p[1]};
+    for (Vec2& p : s.mesh.nodes) p = {factor * p[0], factor * higher * p[1]};
     if (far != 0.0) s.mesh.nodes.back() = {far, 30.0};
     Findings found;
     check_size(s.mesh, found);
@@ -388,6 +388,7 @@ TEST_CASE("Sections have the size of sections") {
   CHECK_THAT(with(1.0, 1e300).errors, Contains("misplaced node"));
   CHECK_THAT(with(1000.0).errors, Contains("another unit of length"));
   CHECK_THAT(with(100.0).warnings, Contains("more than 10 km"));
+  CHECK_THAT(with(1.0, 0.0, 50.0).warnings, Contains("more than a kilometre high"));
   CHECK_THAT(with(1e-3).warnings, Contains("less than half a metre"));
 }
 
@@ -398,15 +399,19 @@ TEST_CASE("Terrain lies under the dam and has heights there") {
     for (int i = 0; i < 30; ++i) text += row + "\n";
     return text;
   };
-  std::string level, gap;
+  std::string level, gap, marks, step;
   for (int i = 0; i < 100; ++i) {
     level += "100 ";
+    step += i == 90 ? "0 " : "100 ";
+    marks += i == 90 ? "0 " : fmt::format("{} ", 100 - i % 7);
     gap += i == 30 || i == 80 ? "-9999 " : "100 ";
   }
   const std::string header =
       "ncols 100\nnrows 30\nxllcorner 500000\nyllcorner 7000000\ncellsize 10\n";
   scratch.write("level.asc", header + rows(level));
   scratch.write("gap.asc", header + rows(gap));
+  scratch.write("marks.asc", header + rows(marks));
+  scratch.write("step.asc", header + rows(step));
   const auto ask_about = [&](const char* file, std::array<double, 2> origin,
                              double height = 100.0) {
     FlowConfig c = flow_config();
@@ -427,6 +432,10 @@ TEST_CASE("Terrain lies under the dam and has heights there") {
   CHECK_THAT(ask_about("gap.asc", {500250.0, 7000100.0}).errors,
              Contains("the terrain has no height"));
   CHECK_THAT(ask_about("gap.asc", {500400.0, 7000100.0}).warnings, Contains("60 of 3000 heights"));
+  CHECK_THAT(ask_about("marks.asc", there).warnings,
+             Contains("30 of 3000 heights of marks.asc are 0 m, 94 m below all others"));
+  CHECK_THAT(ask_about("step.asc", there).warnings,
+             Contains("are 0 m, 100 m below") && !Contains("above all others"));
 }
 
 TEST_CASE("Every element of a transfer has a material, and soil that liquefies a law for it") {
@@ -453,4 +462,24 @@ TEST_CASE("Every element of a transfer has a material, and soil that liquefies a
         }).errors.empty());
   CHECK_THAT(with([](MapConfig& c) { c.materials["tailings"].liquefied.reset(); }).warnings,
              Contains("'tailings' can liquefy"));
+  CHECK_THAT(with([](MapConfig& c) {
+               c.box = {.left = 340.0, .right = {}, .bottom = {}, .top = {}};
+             }).errors,
+             Contains("box: holds no part of the section, which spans x = 0 to 120 m"));
+}
+
+TEST_CASE("A region of a report holds soil") {
+  const auto with = [](std::vector<std::vector<double>> outline) {
+    Findings found;
+    check_region("part", {std::move(outline)}, dam().mesh, found);
+    return answer(found);
+  };
+  CHECK_THAT(with({{0, 0}, {1, 1}}).errors, Contains("regions.part: 2 corners"));
+  CHECK_THAT(with({{1e3, 0}, {1.1e3, 0}, {1e3, 10}}).warnings,
+             Contains("regions.part: holds no part of the section, which spans x = 0 to 120 m"));
+  for (const double size : {100.0, 1.0}) {  // of many elements, and within one
+    const Answer got = with({{1, 1}, {1 + size, 1}, {1, 1 + size}});
+    CHECK(got.errors.empty());
+    CHECK(got.warnings.empty());
+  }
 }

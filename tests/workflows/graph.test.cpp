@@ -158,4 +158,7 @@ TEST_CASE("the head of a workflow file is checked", "[workflows]") {
   CHECK_THROWS_WITH(head("schema: 1\n"), Contains("no 'name'"));
   CHECK_THROWS_WITH(head("schema: 1\nname: a/b\n"), Contains("cannot be a name"));
   CHECK_THROWS_WITH(head("schema: 1\nname: a\nstage: 3\n"), Contains("unknown key 'stage'"));
+  const auto study = scratch.write("s.yaml", "schema: 1\nname: a\nstudy: {workflow: w.yaml}\n");
+  CHECK_THROWS_WITH(load_workflow(study, {}, types),
+                    Contains("is a study") && Contains("'flowslide study run'"));
 }

@@ -20,6 +20,8 @@ double median_width(const QuadMesh& mesh, std::span<const std::int32_t> elements
   return median(std::move(widths));
 }
 
+}  // namespace
+
 std::vector<std::int32_t> nodes_of(const QuadMesh& mesh, std::span<const std::int32_t> elements) {
   std::vector<std::int32_t> nodes;
   for (const std::int32_t e : elements) {
@@ -29,8 +31,6 @@ std::vector<std::int32_t> nodes_of(const QuadMesh& mesh, std::span<const std::in
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
 }
-
-}  // namespace
 
 NodeNeighbours soil_neighbours(const QuadMesh& mesh, std::span<const std::int32_t> elements) {
   NodeNeighbours adjacent(mesh.num_nodes());

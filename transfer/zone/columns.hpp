@@ -10,6 +10,9 @@
 /// (docs/theory/liquefaction-zone.md, section 2).
 namespace flowslide {
 
+/// Nodes of the listed elements, ascending.
+std::vector<std::int32_t> nodes_of(const QuadMesh& mesh, std::span<const std::int32_t> elements);
+
 /// Per node the nodes that share one of the listed elements with it, ascending.
 using NodeNeighbours = std::vector<std::vector<std::int32_t>>;
 NodeNeighbours soil_neighbours(const QuadMesh& mesh, std::span<const std::int32_t> elements);

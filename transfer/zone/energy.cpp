@@ -1,6 +1,7 @@
 #include "transfer/zone/energy.hpp"
 
 #include "core/check.hpp"
+#include "transfer/zone/columns.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -23,12 +24,7 @@ std::vector<std::int32_t> lowest_nodes(const QuadMesh& mesh,
                                        std::span<const std::int32_t> elements) {
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
-  std::vector<std::int32_t> nodes;
-  for (const std::int32_t e : elements) {
-    for (const std::int32_t n : mesh.elements[static_cast<std::size_t>(e)]) nodes.push_back(n);
-  }
-  std::ranges::sort(nodes);
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  std::vector<std::int32_t> nodes = nodes_of(mesh, elements);
   for (const std::int32_t n : nodes) {
     low = std::min(low, mesh.nodes[static_cast<std::size_t>(n)][1]);
     high = std::max(high, mesh.nodes[static_cast<std::size_t>(n)][1]);

@@ -261,6 +261,10 @@ std::string workflow_name(const YamlNode& document) {
 Workflow load_workflow(const std::filesystem::path& path, std::span<const std::string> overrides,
                        std::span<const StageType> types) {
   const YamlNode document = load_yaml(path, overrides);
+  if (document.kind() == YamlNode::Kind::map && document.find("study") && !document.find("stages"))
+    throw document.error(
+        "is a study, which names a workflow. Run it with 'flowslide study run': "
+        "docs/guide/studies.md.");
   Workflow workflow{
       .name = {}, .file = path, .overrides = {overrides.begin(), overrides.end()}, .stages = {}};
   Problems problems;

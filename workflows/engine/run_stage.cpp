@@ -1,6 +1,7 @@
 #include "workflows/engine/run_stage.hpp"
 
 #include "core/check.hpp"
+#include "core/clock.hpp"
 #include "core/files.hpp"
 #include "workflows/engine/earlier.hpp"
 #include "workflows/engine/headlines.hpp"
@@ -9,19 +10,12 @@
 #include "workflows/engine/session.hpp"
 #include "workflows/engine/warnings.hpp"
 
-#include <chrono>
 #include <stdexcept>
 
 namespace fs = std::filesystem;
 
 namespace flowslide {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// The time that sessions spend in a work folder, kept there for the next one.
 class Stopwatch {

@@ -1,6 +1,7 @@
 #include "workflows/engine/runner.hpp"
 
 #include "core/check.hpp"
+#include "core/clock.hpp"
 #include "core/files.hpp"
 #include "workflows/engine/cost_book.hpp"
 #include "workflows/engine/result_folder.hpp"
@@ -11,7 +12,6 @@
 #include "workflows/engine/warnings.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 #include <fmt/format.h>
 
@@ -19,12 +19,6 @@ namespace fs = std::filesystem;
 
 namespace flowslide {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 const OutputRecord& output(const StageRecord& record, const std::string& port) {
   return *std::find_if(record.outputs.begin(), record.outputs.end(),

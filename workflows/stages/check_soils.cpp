@@ -206,13 +206,7 @@ void check_fem_soils(const FemConfig& fem, Findings& found) {
 
 void check_water(const FemConfig& fem, const QuadMesh& mesh, Findings& found) {
   if (!fem.water || fem.water->table.empty()) return;
-  Extent e;
-  for (const Vec2& p : mesh.nodes) {
-    e.left = std::min(e.left, p[0]);
-    e.right = std::max(e.right, p[0]);
-    e.bottom = std::min(e.bottom, p[1]);
-    e.top = std::max(e.top, p[1]);
-  }
+  const Extent e = extent_of(mesh);
   double highest = -std::numeric_limits<double>::infinity();
   for (const Vec2& p : mesh.nodes) highest = std::max(highest, fem::water_level(*fem.water, p[0]));
   const double height = e.top - e.bottom;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -94,6 +95,31 @@ void check_heights(const mpm::HeightField& f, const FlowConfig& flow, const Soil
         lowest));
 }
 
+/// One height far below or above all others, which marks of missing data are: 0 among hundreds.
+void check_marks(const mpm::HeightField& f, Findings& found) {
+  constexpr double kLeast = 20.0, kShare = 0.25;  // [m], of the range of the others
+  const auto look = [&](double sign) {
+    double outermost = std::numeric_limits<double>::infinity(), next = outermost;
+    double other_end = -outermost;
+    for (const double height : f.height) {
+      const double h = sign * height;
+      if (h < outermost) next = std::exchange(outermost, h);
+      if (h > outermost && h < next) next = h;
+      if (h > other_end) other_end = h;
+    }
+    const double gap = next - outermost;
+    if (!(std::isfinite(next) && gap > kLeast && gap > kShare * (other_end - next))) return;
+    const auto count = std::count(f.height.begin(), f.height.end(), sign * outermost);
+    if (2 * count > std::ssize(f.height)) return;  // the others are the odd ones
+    found.warnings.push_back(fmt::format(
+        "ground.terrain: {} of {} heights of {} are {:g} m, {:.4g} m {} all others. If they are a "
+        "mark for missing data, write it into the header as nodata_value.",
+        count, f.height.size(), f.source, sign * outermost, gap, sign > 0.0 ? "below" : "above"));
+  };
+  look(1.0);
+  look(-1.0);
+}
+
 }  // namespace
 
 void check_terrain(const FlowConfig& flow, const Soil& soil, Findings& found) {
@@ -111,6 +137,7 @@ void check_terrain(const FlowConfig& flow, const Soil& soil, Findings& found) {
     found.warnings.push_back(fmt::format(
         "ground.terrain: {} of {} heights of {} are missing. A flow that comes there ends the run.",
         missing, f.height.size(), f.source));
+  check_marks(f, found);
   if (soil.all.empty() || !flow.extrude) return;
   const double width = flow.extrude->width;
   if (!check_cover(f, soil.all, width, found)) return;

@@ -1,4 +1,5 @@
 #include "core/check.hpp"
+#include "model/outline.hpp"
 #include "workflows/engine/cache.hpp"
 #include "workflows/stages/cross_checks.hpp"
 
@@ -7,6 +8,25 @@
 #include <set>
 
 namespace flowslide {
+namespace {
+
+std::string span_text(const Extent& e) {
+  return fmt::format("x = {:.4g} to {:.4g} m and y = {:.4g} to {:.4g} m", e.left, e.right, e.bottom,
+                     e.top);
+}
+
+}  // namespace
+
+Extent extent_of(const QuadMesh& mesh) {
+  Extent e;
+  for (const Vec2& p : mesh.nodes) {
+    e.left = std::min(e.left, p[0]);
+    e.right = std::max(e.right, p[0]);
+    e.bottom = std::min(e.bottom, p[1]);
+    e.top = std::max(e.top, p[1]);
+  }
+  return e;
+}
 
 void check_strength(const StrengthConfig& strength, Findings& found) {
   // Liquefied soil keeps 0.03 to 0.3 of its initial effective stress; sand that has not liquefied
@@ -131,14 +151,20 @@ void check_map_names(const MapConfig& map, const SectionMesh& section,
   for (const HistoryMaterial& m : materials) name_of[m.tag] = m.name;
   const QuadMesh& mesh = section.mesh;
   const Box box = box_of(map.box);
-  for (std::size_t e = 0; e < mesh.num_elements(); ++e) {
-    if (!box.contains(centroid(corners(mesh, mesh.nodes, e)))) continue;
-    const std::string& name = name_of[mesh.element_material[e]];
+  const Extent e = extent_of(mesh);
+  if (!(box.xmin < e.right && box.xmax > e.left && box.ymin < e.top && box.ymax > e.bottom))
+    found.errors.push_back(fmt::format(
+        "box: holds no part of the section, which spans {} (there is nothing to transfer) check "
+        "numbers and unit",
+        span_text(e)));
+  for (std::size_t i = 0; i < mesh.num_elements(); ++i) {
+    if (!box.contains(centroid(corners(mesh, mesh.nodes, i)))) continue;
+    const std::string& name = name_of[mesh.element_material[i]];
     if (of_name.count(name) > 0) continue;
     found.errors.push_back(fmt::format(
         "materials: element {} is of the material '{}', which is not among them (its law is "
         "unknown) add it, or leave the element outside the box",
-        mesh.element_tags[e], name));
+        mesh.element_tags[i], name));
     break;
   }
   if (!zone) return;
@@ -156,21 +182,33 @@ void check_map_names(const MapConfig& map, const SectionMesh& section,
   }
 }
 
+void check_region(const std::string& name, const ReportRegion& region, const QuadMesh& mesh,
+                  Findings& found) {
+  if (region.outline.size() < 3) {
+    found.errors.push_back(
+        fmt::format("regions.{}: {} corners (a region needs three or more) give its outline", name,
+                    region.outline.size()));
+    return;
+  }
+  if (mesh.nodes.empty()) return;
+  const auto inside = [&](Vec2 p) { return inside_outline(region.outline, p); };
+  for (std::size_t e = 0; e < mesh.num_elements(); ++e) {
+    const std::array<Vec2, 4> quad = corners(mesh, mesh.nodes, e);
+    if (std::ranges::any_of(quad, inside) || inside(centroid(quad))) return;
+    for (const auto& corner : region.outline)  // a region within one element
+      if (inside_outline(quad, {corner[0], corner[1]})) return;
+  }
+  found.warnings.push_back(
+      fmt::format("regions.{}: holds no part of the section, which spans {}: nothing will be told "
+                  "of it.",
+                  name, span_text(extent_of(mesh))));
+}
+
 void check_size(const QuadMesh& mesh, Findings& found) {
-  Extent e;
-  const auto add = [&](Vec2 p) {
-    e.left = std::min(e.left, p[0]);
-    e.right = std::max(e.right, p[0]);
-    e.bottom = std::min(e.bottom, p[1]);
-    e.top = std::max(e.top, p[1]);
-  };
-  for (const Vec2& p : mesh.nodes) add(p);
-  constexpr double kLargest = 1e5, kLarge = 1e4, kSmall = 0.5;  // [m]
+  const Extent e = extent_of(mesh);
+  constexpr double kLargest = 1e5, kLarge = 1e4, kHigh = 1e3, kSmall = 0.5;  // [m]
   const double size = std::max(e.right - e.left, e.height());
-  const std::string span = fmt::format(
-      "the section spans x = {:.4g} to {:.4g} m and y = {:.4g} to "
-      "{:.4g} m",
-      e.left, e.right, e.bottom, e.top);
+  const std::string span = "the section spans " + span_text(e);
   if (!(size < kLargest))
     found.errors.push_back(fmt::format(
         "{} (no dam is larger than 100 km; a misplaced node, or another unit of length) check the "
@@ -178,6 +216,8 @@ void check_size(const QuadMesh& mesh, Findings& found) {
         span));
   else if (size > kLarge)
     found.warnings.push_back(span + ", more than 10 km. Is the unit of length right?");
+  else if (e.height() > kHigh)
+    found.warnings.push_back(span + ", more than a kilometre high. Is the unit of length right?");
   else if (size < kSmall)
     found.warnings.push_back(span + ", less than half a metre. Is the unit of length right?");
 }

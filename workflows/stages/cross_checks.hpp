@@ -3,6 +3,7 @@
 #include "model/history_material.hpp"
 #include "model/section_mesh.hpp"
 #include "mpm/run/flow_config.hpp"
+#include "report/config.hpp"
 #include "transfer/map/map_config.hpp"
 #include "transfer/zone/stop_config.hpp"
 #include "transfer/zone/zone_config.hpp"
@@ -10,6 +11,7 @@
 
 #include <limits>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -26,6 +28,8 @@ struct Extent {
   [[nodiscard]] bool empty() const { return !(left < right && bottom < top); }
   [[nodiscard]] double height() const { return top - bottom; }
 };
+
+Extent extent_of(const QuadMesh& mesh);
 
 /// What transfer.map makes points of.
 struct Soil {
@@ -66,7 +70,8 @@ void check_densities(const std::vector<HistoryMaterial>& materials, Findings& fo
 /// Stiffness of the materials of a transfer.
 void check_map_materials(const MapConfig& map, const std::vector<HistoryMaterial>& materials,
                          const Soil& soil, Findings& found);
-/// Elements inside the box without a material, and soil that can liquefy without a law for it.
+/// A box that holds nothing, elements inside the box without a material, and soil that can liquefy
+/// without a law for it.
 void check_map_names(const MapConfig& map, const SectionMesh& section,
                      const std::vector<HistoryMaterial>& materials,
                      const std::optional<ZoneConfig>& zone, Findings& found);
@@ -86,6 +91,9 @@ void check_pond(const TransferRuleConfig& rule, const QuadMesh& mesh,
 /// known.
 void check_freeboard(double pond, const QuadMesh& mesh, std::optional<double> pond_surface,
                      Findings& found);
+/// A named part of a report that has no outline, or holds nothing of a section that is known.
+void check_region(const std::string& name, const ReportRegion& region, const QuadMesh& mesh,
+                  Findings& found);
 /// A transfer at a given time against the end of the shaking [s]; `above` is the path of the
 /// rule's settings, with its dot.
 void check_transfer_time(const TransferRuleConfig& rule, double end, std::string_view above,

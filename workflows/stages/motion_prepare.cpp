@@ -1,4 +1,5 @@
 #include "model/motion_file.hpp"
+#include "motion/foreign.hpp"
 #include "motion/measures.hpp"
 #include "motion/prepare.hpp"
 #include "workflows/stages/preview.hpp"
@@ -28,8 +29,13 @@ struct MotionPrepareStage {
   /// Reading a record takes less than a second; making a motion takes longer and opens no file.
   static std::any preview(const Config& config, const Previews&, Findings& found) {
     Preview p;
-    p.motion_end = config.record ? prepare_motion(config, {}, &found.warnings).duration()
-                                 : made_duration(config);
+    if (config.record) {
+      p.motion_end = prepare_motion(config, {}, &found.warnings).duration();
+    } else {
+      p.motion_end = made_duration(config);
+      const double peak = config.pga ? *config.pga : config.synthetic->pga;
+      found.warnings = implausible("", peak, kUnset);
+    }
     found.work = motion_work();
     return p;
   }

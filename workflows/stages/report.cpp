@@ -1,5 +1,6 @@
 #include "report/report.hpp"
 
+#include "core/files.hpp"
 #include "model/motion_file.hpp"
 #include "report/check_config.hpp"
 #include "report/figures.hpp"
@@ -92,10 +93,7 @@ struct ReportStage {
           "the runout has three dimensions (the report draws sections) take this stage out of the "
           "workflow, and `flowslide convert` mpm.h5 for ParaView, docs/guide/valley.md");
     for (const auto& [region_name, region] : config.regions)
-      if (region.outline.size() < 3)
-        found.errors.push_back(
-            fmt::format("regions.{}: {} corners (a region needs three or more) give its outline",
-                        region_name, region.outline.size()));
+      check_region(region_name, region, p.section ? p.section->mesh : QuadMesh{}, found);
     if (config.pond && p.section)
       check_freeboard(*config.pond, p.section->mesh,
                       p.zone ? std::optional(p.zone->pond_surface) : std::nullopt, found);
@@ -128,7 +126,7 @@ struct ReportStage {
     for (const char* file : {"report/flow.pvd", "report/zone.pvd"})
       if (std::filesystem::exists(context.folder / file)) result.publish.emplace_back(file);
     if (config.figures) {
-      std::filesystem::create_directories(context.folder / "plot");
+      make_folders(context.folder / "plot");
       result.give = write_plot_scripts(context.folder / "plot");
     }
     return result;
