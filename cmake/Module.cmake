@@ -9,9 +9,10 @@ function(add_module name)
                         PRIVATE $<BUILD_INTERFACE:flowslide_warnings> ${M_PRIVATE_LINKS})
 endfunction()
 
-# unfused(target): g++ 12 fuses the products and sums of complex numbers into one rounding even with
-# -ffp-contract=off, where it packs them into a register (vfmaddsub); not so without that packing.
-# For modules that hold such code; the test bits.unfused finds them.
+# unfused(target): g++ 12 fuses a b - c d and a b + c d side by side, as products of complex numbers
+# have them, into one rounding even with -ffp-contract=off, where it packs them into a register
+# (vfmaddsub); not so without that packing. For modules that hold such code and no loop that would
+# miss it. The test bits.unfused finds them, for the instruction set that it is built for.
 function(unfused target)
   if(FLOWSLIDE_SAME_BITS)
     target_compile_options(${target} PRIVATE -fno-tree-vectorize)
