@@ -5,6 +5,7 @@
 #include "model/written_fields.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <map>
 
 namespace flowslide {
@@ -97,6 +98,7 @@ struct FieldWriter::Impl {
   /// `at`, whose component `along` counts rows.
   bool write_chunks(hid_t dataset, std::size_t value_bytes, hsize_t rows, hsize_t chunk_rows,
                     std::size_t row, std::vector<hsize_t> at, std::size_t along, const void* data) {
+    static_assert(std::endian::native == std::endian::little);  // as disk_type()
     for (hsize_t first = 0; first < rows; first += chunk_rows) {
       const auto packed =
           filters.apply(static_cast<const std::uint8_t*>(data) + first * row * value_bytes,
@@ -178,7 +180,8 @@ void FieldWriter::write_texts(const std::string& name, const std::vector<std::st
   Hdf5Handle dataset =
       impl_->create(name, type, extent, extent, texts.empty() ? std::vector<hsize_t>{} : extent,
                     {.unit = "", .convention = convention});
-  if (!texts.empty() && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0)
+  if (!texts.empty() &&
+      !impl_->write_chunks(dataset, length, texts.size(), texts.size(), 1, {0}, 0, bytes.data()))
     throw_file_error(impl_->path, name, "cannot be written");
   impl_->close(name, dataset);
   impl_->written.add(name, Scalar::u8, length, texts.size(), {}, bytes.data());

@@ -8,15 +8,6 @@
 namespace flowslide {
 namespace {
 
-template <class... Args>
-void refuse(Findings& found, fmt::format_string<Args...> text, Args&&... args) {
-  found.errors.push_back(fmt::format(text, std::forward<Args>(args)...));
-}
-template <class... Args>
-void warn(Findings& found, fmt::format_string<Args...> text, Args&&... args) {
-  found.warnings.push_back(fmt::format(text, std::forward<Args>(args)...));
-}
-
 void add(Extent& extent, Vec2 p) {
   extent.left = std::min(extent.left, p[0]);
   extent.right = std::max(extent.right, p[0]);

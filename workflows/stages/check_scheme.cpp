@@ -9,11 +9,6 @@
 namespace flowslide {
 namespace {
 
-template <class... Args>
-void warn(Findings& found, fmt::format_string<Args...> text, Args&&... args) {
-  found.warnings.push_back(fmt::format(text, std::forward<Args>(args)...));
-}
-
 void check_resistance(const FlowConfig& flow, Findings& found) {
   constexpr double kSteepest = 1.5;  // tan 56 deg
   constexpr double kSmoothest = 0.1;

@@ -13,11 +13,21 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 /// Settings against each other and against the section, before anything runs. What cannot be is an
 /// error, what is odd a warning; limits and reasons in docs/guide/checks.md.
 namespace flowslide {
+
+template <class... Args>
+void refuse(Findings& found, fmt::format_string<Args...> text, Args&&... args) {
+  found.errors.push_back(fmt::format(text, std::forward<Args>(args)...));
+}
+template <class... Args>
+void warn(Findings& found, fmt::format_string<Args...> text, Args&&... args) {
+  found.warnings.push_back(fmt::format(text, std::forward<Args>(args)...));
+}
 
 /// Smallest box around some soil [m].
 struct Extent {

@@ -20,13 +20,7 @@ std::vector<Vec2> points_of(const std::vector<std::vector<double>>& rows) {
 /// Open sides end with the section; nothing where all are open.
 std::optional<std::array<double, 4>> drawn_box(const SectionBox& box, const QuadMesh& mesh) {
   if (!box.left && !box.right && !box.bottom && !box.top) return std::nullopt;
-  Extent e;
-  for (const Vec2& p : mesh.nodes) {
-    e.left = std::min(e.left, p[0]);
-    e.right = std::max(e.right, p[0]);
-    e.bottom = std::min(e.bottom, p[1]);
-    e.top = std::max(e.top, p[1]);
-  }
+  const Extent e = extent_of(mesh);
   return std::array{box.left.value_or(e.left), box.right.value_or(e.right),
                     box.bottom.value_or(e.bottom), box.top.value_or(e.top)};
 }
