@@ -19,7 +19,12 @@ using TileVelocity = std::array<std::vector<double>, Dim>;  ///< per point of th
 /// of the affine field there is no f, and the lanes of the force are like those of the momentum.
 template <int Dim>
 struct Contributions {
-  NodeVector a[Pack::lanes], b[Pack::lanes], other[Dim - 1][Pack::lanes];
+  struct Part {
+    NodePart a[Pack::lanes], b[Pack::lanes], other[Dim - 1][Pack::lanes];
+  };
+  /// Parts that hold mass, momentum and force.
+  static constexpr int parts = (NodeLayout<Dim>::force + Dim + Pack::lanes - 1) / Pack::lanes;
+  Part part[parts];
 };
 
 template <int Dim, class Basis, Scatter kScatter>
@@ -68,9 +73,12 @@ template <int Dim, class Basis, Scatter kScatter>
       });
     });
   }
-  transpose(a, out.a);
-  transpose(b[0], out.b);
-  for (int e = 1; e < Dim; ++e) transpose(b[e], out.other[e - 1]);
+  for (int part = 0; part < Contributions<Dim>::parts; ++part) {
+    const int first = part * Pack::lanes;
+    transpose(a + first, out.part[part].a);
+    transpose(b[0] + first, out.part[part].b);
+    for (int e = 1; e < Dim; ++e) transpose(b[e] + first, out.part[part].other[e - 1]);
+  }
 }
 
 /// Weights and gradients of the points of a pack, lane by lane.
@@ -88,37 +96,39 @@ struct LaneStencil {
   }
 };
 
-/// What point `k` of a pack gives to the nodes of its stencil; `target(n)` is node n.
-template <int Dim, class Basis, class Target>
-void give_to_nodes(const LaneStencil<Dim, Basis>& s, const Contributions<Dim>& give, int k,
-                   Target&& target) noexcept {
+/// What point `k` of a pack gives to a part of the nodes of its stencil; `target(n)` is node n.
+template <int kPart, int Dim, class Basis, class Target>
+[[gnu::always_inline]] inline void give_to_nodes(const LaneStencil<Dim, Basis>& s,
+                                                 const typename Contributions<Dim>::Part& give,
+                                                 int k, Target&& target) noexcept {
   constexpr int N = Basis::nodes;
   const auto& w = s.w;
   const auto& g = s.g;
-  NodeVector row[N], column[N];
-  unroll<N>([&](auto i) {
-    row[i] = weight_and_gradient<Dim>(w[0][i][k], g[0][i][k]) * give.a[k];
+  NodePart row[N], column[N];
+  unroll<N>([&](auto i) __attribute__((always_inline)) {
+    row[i] = weight_and_gradient<Dim, kPart>(w[0][i][k], g[0][i][k]) * give.a[k];
     if constexpr (i > 0) row[i] += (double(i) * w[0][i][k]) * give.b[k];
   });
-  unroll<N>([&](auto j) {
-    column[j] = weight_and_gradient<Dim>(double(j) * w[1][j][k], g[1][j][k]) * give.other[0][k];
+  unroll<N>([&](auto j) __attribute__((always_inline)) {
+    column[j] =
+        weight_and_gradient<Dim, kPart>(double(j) * w[1][j][k], g[1][j][k]) * give.other[0][k];
   });
   if constexpr (Dim == 2) {
-    unroll<N>([&](auto j) {
-      unroll<N>([&](auto i) {
+    unroll<N>([&](auto j) __attribute__((always_inline)) {
+      unroll<N>([&](auto i) __attribute__((always_inline)) {
         target(std::integral_constant<int, i + N * j>{}) +=
             w[1][j][k] * row[i] + w[0][i][k] * column[j];
       });
     });
   } else {
-    unroll<N>([&](auto l) {
+    unroll<N>([&](auto l) __attribute__((always_inline)) {
       const double wz = w[Dim - 1][l][k];
-      const NodeVector layer =
-          weight_and_gradient<Dim>(double(l) * wz, g[Dim - 1][l][k]) * give.other[Dim - 2][k];
-      unroll<N>([&](auto j) {
+      const NodePart layer = weight_and_gradient<Dim, kPart>(double(l) * wz, g[Dim - 1][l][k]) *
+                             give.other[Dim - 2][k];
+      unroll<N>([&](auto j) __attribute__((always_inline)) {
         const double wy = w[1][j][k], wyz = wy * wz;
-        const NodeVector rest = wz * column[j] + wy * layer;
-        unroll<N>([&](auto i) {
+        const NodePart rest = wz * column[j] + wy * layer;
+        unroll<N>([&](auto i) __attribute__((always_inline)) {
           target(std::integral_constant<int, i + N * j + N * N * l>{}) +=
               wyz * row[i] + w[0][i][k] * rest;
         });
@@ -133,7 +143,7 @@ struct LaneWeights {
   static constexpr int N = Basis::nodes;
   alignas(64) double w[power<Dim>(N)][Pack::lanes];
   explicit LaneWeights(const Stencil<Dim, Basis>& s) noexcept {
-    unroll<power<Dim>(N)>([&](auto n) {
+    unroll<power<Dim>(N)>([&](auto n) __attribute__((always_inline)) {
       constexpr int i = n % N, j = n / N % N, l = n / (N * N);
       Pack weight = s.w[0][i] * s.w[1][j];
       if constexpr (Dim == 3) weight *= s.w[Dim - 1][l];
@@ -142,19 +152,20 @@ struct LaneWeights {
   }
 };
 
-/// What point `k` of a pack gives to the nodes of its stencil; `target(n)` is node n.
-template <int Dim, class Basis, class Target>
-void give_to_nodes(const LaneWeights<Dim, Basis>& s, const Contributions<Dim>& give, int k,
-                   Target&& target) noexcept {
+/// The same where weights are all that is needed.
+template <int kPart, int Dim, class Basis, class Target>
+[[gnu::always_inline]] inline void give_to_nodes(const LaneWeights<Dim, Basis>& s,
+                                                 const typename Contributions<Dim>::Part& give,
+                                                 int k, Target&& target) noexcept {
   constexpr int N = Basis::nodes;
-  NodeVector row[N];
-  unroll<N>([&](auto i) {
+  NodePart row[N];
+  unroll<N>([&](auto i) __attribute__((always_inline)) {
     row[i] = give.a[k];
     if constexpr (i > 0) row[i] += double(i) * give.b[k];
   });
-  unroll<power<Dim>(N)>([&](auto n) {
+  unroll<power<Dim>(N)>([&](auto n) __attribute__((always_inline)) {
     constexpr int i = n % N, j = n / N % N, l = n / (N * N);
-    NodeVector value = row[i];
+    NodePart value = row[i];
     if constexpr (j > 0) value += double(j) * give.other[0][k];
     if constexpr (l > 0) value += double(l) * give.other[Dim - 2][k];
     target(n) += s.w[n][k] * value;
@@ -171,12 +182,16 @@ template <int Dim, class Basis, Scatter kScatter>
   constexpr int N = Basis::nodes, W = kLocalWidth<Dim, Basis>, T = power<Dim>(N);
   // Sums of the nodes of one point stay in registers while points of the same cell follow.
   constexpr bool kHold = T <= 16;
+  constexpr int kParts = Contributions<Dim>::parts;
   std::memset(static_cast<void*>(window), 0, sizeof(NodeVector) * kWindowNodes<Dim, Basis>);
-  constexpr auto offset = [](int n) { return n % N + W * (n / N % N) + W * W * (n / (N * N)); };
+  auto* sums = reinterpret_cast<NodePart*>(window);
+  constexpr auto offset = [](int n) {
+    return kNodeParts * (n % N + W * (n / N % N) + W * W * (n / (N * N)));
+  };
   const double h = grid.h, inverse = 1.0 / h;
   const std::array<double, Dim> corner = window_corner<Dim>(tile);
 
-  NodeVector held[kHold ? T : 1];
+  NodePart held[kParts][kHold ? T : 1];
   std::int32_t current = -1;
   for (std::int32_t q = tile.first; q < tile.last; q += Pack::lanes) {
     const int count = std::min<std::int32_t>(Pack::lanes, tile.last - q);
@@ -193,26 +208,38 @@ template <int Dim, class Basis, Scatter kScatter>
     using Lanes = std::conditional_t<Basis::affine_gradient, LaneWeights<Dim, Basis>,
                                      LaneStencil<Dim, Basis>>;
     const Lanes lanes(s);
-    for (int k = 0; k < count; ++k) {
-      NodeVector* at = window + s.at[k];
-      if constexpr (kHold) {
-        if (s.at[k] != current) {
-          if (current >= 0) unroll<T>([&](auto n) { window[current + offset(n)] = held[n]; });
-          unroll<T>([&](auto n) { held[n] = at[offset(n)]; });
-          current = s.at[k];
+    unroll<kParts>([&](auto part) __attribute__((always_inline)) {
+      std::int32_t now = current;
+      NodePart mine[kHold ? T : 1];  // in registers, as a part of its own
+      if constexpr (kHold) unroll<T>([&](auto n) { mine[n] = held[part][n]; });
+      for (int k = 0; k < count; ++k) {
+        NodePart* at = sums + kNodeParts * s.at[k] + part;
+        if constexpr (kHold) {
+          if (s.at[k] != now) {
+            NodePart* before = sums + kNodeParts * now + part;
+            if (now >= 0) unroll<T>([&](auto n) { before[offset(n)] = mine[n]; });
+            unroll<T>([&](auto n) { mine[n] = at[offset(n)]; });
+            now = s.at[k];
+          }
         }
+        const auto target = [&](auto n) __attribute__((always_inline))->NodePart& {
+          if constexpr (kHold)
+            return mine[n];
+          else
+            return at[offset(n)];
+        };
+        give_to_nodes<part, Dim, Basis>(lanes, give.part[part], k, target);
       }
-      const auto target = [&](auto n) -> NodeVector& {
-        if constexpr (kHold)
-          return held[n];
-        else
-          return at[offset(n)];
-      };
-      give_to_nodes<Dim, Basis>(lanes, give, k, target);
-    }
+      if constexpr (kHold) unroll<T>([&](auto n) { held[part][n] = mine[n]; });
+    });
+    current = s.at[count - 1];
   }
   if constexpr (kHold)
-    if (current >= 0) unroll<T>([&](auto n) { window[current + offset(n)] = held[n]; });
+    if (current >= 0)
+      unroll<kParts>([&](auto part) {
+        NodePart* at = sums + kNodeParts * current + part;
+        unroll<T>([&](auto n) { at[offset(n)] = held[part][n]; });
+      });
 }
 
 }  // namespace flowslide::mpm
