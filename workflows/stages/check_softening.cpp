@@ -1,4 +1,3 @@
-#include "constitutive/materials.hpp"
 #include "core/check.hpp"
 #include "workflows/stages/cross_checks.hpp"
 
