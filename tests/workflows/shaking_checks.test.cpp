@@ -47,26 +47,23 @@ TEST_CASE("Ends of a section that do not let it shake as the ground does are see
 }
 
 TEST_CASE("A shaking that is hardly recorded, or more than a disk holds, is seen") {
-  const auto every = [](double interval, int columns, std::optional<double> end) {
+  const auto every = [](double interval, int columns, std::optional<double> end,
+                        std::optional<double> period = {}) {
     FemConfig c;
     c.output_interval = interval;
     Findings found;
-    check_recording(c, section(5.0, columns), end, found);
+    check_recording(c, section(5.0, columns), end, period, found);
     return warnings(found);
   };
   CHECK(every(0.25, 12, 48.0).empty());
   CHECK(every(0.25, 12, std::nullopt).empty());
   CHECK_THAT(every(100.0, 12, std::nullopt), Contains("output_interval: 100 s"));
+  CHECK(every(0.1, 12, 48.0, 0.4).empty());
+  CHECK(every(0.2, 12, 48.0, 0.4).empty());
+  CHECK_THAT(every(0.25, 12, 48.0, 0.4),
+             Contains("1.6 states in a mean period") && Contains("Take 0.1 s"));
   CHECK(every(1e-3, 100, 48.0).empty());
   CHECK_THAT(every(1e-3, 10000, 48.0), Contains("4.8e+04 states") && Contains("GB"));
-}
-
-TEST_CASE("States that are farther apart than swings of the motion are seen") {
-  CHECK(rarely_recorded(0.1, 0.4).empty());
-  CHECK(rarely_recorded(0.2, 0.4).empty());
-  const std::vector<std::string> said = rarely_recorded(0.25, 0.4);
-  REQUIRE(said.size() == 1);
-  CHECK_THAT(said[0], Contains("1.6 states in a mean period") && Contains("Take 0.1 s"));
 }
 
 TEST_CASE("A void ratio in place of a porosity is seen by its grains") {

@@ -50,9 +50,10 @@ void check_sides(const FemConfig& fem, const QuadMesh& mesh, Findings& found) {
 }
 
 void check_recording(const FemConfig& fem, const QuadMesh& mesh, std::optional<double> end,
-                     Findings& found) {
-  constexpr double kRare = 0.5;    // [s]
-  constexpr double kLarge = 2e10;  // [bytes]
+                     std::optional<double> mean_period, Findings& found) {
+  constexpr double kLeastStates = 2.0;  // in a period
+  constexpr double kRare = 0.5;         // [s]
+  constexpr double kLarge = 2e10;       // [bytes]
   constexpr double kBytesPerNode = 5 * sizeof(double), kBytesPerElement = 8 * sizeof(double);
   const double interval = fem.output_interval;
   if (interval > kRare)
@@ -60,6 +61,11 @@ void check_recording(const FemConfig& fem, const QuadMesh& mesh, std::optional<d
          "output_interval: {:g} s. The time of transfer and the largest r_u are looked for among "
          "recorded states only, and shaking has periods below 1 s. Take {:g} s or less.",
          interval, kRare);
+  else if (mean_period && interval * kLeastStates > *mean_period)
+    warn(found,
+         "output_interval: {:g} s records {:.2g} states in a mean period of the motion, {:.2g} s: "
+         "the largest r_u lies between them, and soil that liquefies may be missed. Take {:.1g} s.",
+         interval, *mean_period / interval, *mean_period, 0.25 * *mean_period);
   if (!end) return;
   const double bytes = *end / interval *
                        (kBytesPerNode * static_cast<double>(mesh.num_nodes()) +
@@ -69,15 +75,6 @@ void check_recording(const FemConfig& fem, const QuadMesh& mesh, std::optional<d
          "output_interval: {:g} s records {:.2g} states until {:g} s, up to {:.0f} GB. Is there "
          "room for them?",
          interval, *end / interval, *end, bytes / 1e9);
-}
-
-std::vector<std::string> rarely_recorded(double interval, double mean_period) {
-  constexpr double kLeastStates = 2.0;  // in a period
-  if (interval * kLeastStates <= mean_period) return {};
-  return {fmt::format(
-      "output_interval: {:g} s records {:.2g} states in a mean period of the motion, {:.2g} s: the "
-      "largest r_u lies between them, and soil that liquefies may be missed. Take {:.1g} s.",
-      interval, mean_period / interval, mean_period, 0.25 * mean_period)};
 }
 
 }  // namespace flowslide

@@ -99,12 +99,9 @@ void check_water(const FemConfig& fem, const QuadMesh& mesh, Findings& found);
 
 /// How the ends of the section hold it.
 void check_sides(const FemConfig& fem, const QuadMesh& mesh, Findings& found);
-/// How often a shaking that ends at `end` [s], if that is known, is recorded.
+/// How often a shaking is recorded, that ends at `end` and has a mean period, both [s] if known.
 void check_recording(const FemConfig& fem, const QuadMesh& mesh, std::optional<double> end,
-                     Findings& found);
-
-/// A sentence where a motion swings faster than states are recorded; both [s].
-std::vector<std::string> rarely_recorded(double interval, double mean_period);
+                     std::optional<double> mean_period, Findings& found);
 
 /// Residual strength against the stress it belongs to.
 void check_strength(const StrengthConfig& strength, Findings& found);

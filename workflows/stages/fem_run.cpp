@@ -95,7 +95,7 @@ struct FemRun {
     found.work = shaking_work(config, p.section->mesh, p.end, config.stop_at_transfer.has_value());
     check_water(config, p.section->mesh, found);
     check_sides(config, p.section->mesh, found);
-    check_recording(config, p.section->mesh, p.end, found);
+    check_recording(config, p.section->mesh, p.end, p.mean_period, found);
     (void)fem::build_model(*p.section, config);  // names, sets and ends against the mesh
     p.materials = fem::history_materials(*p.section, config);
     if (config.stop_at_transfer) try {
@@ -133,8 +133,6 @@ struct FemRun {
                                     {"fem_seconds", f.seconds},
                                     {"fem_notes", f.notes}};
     StageResult result{.facts = {}, .publish = {}, .warnings = f.notes};
-    for (std::string& text : rarely_recorded(config.output_interval, mean_period(motion)))
-      result.warnings.push_back(std::move(text));
     const double strong = arias_time(motion, 0.95);
     if (!f.stopped && !f.stopped_by_rule && f.end_time < strong)
       result.warnings.push_back(fmt::format(
