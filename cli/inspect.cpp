@@ -4,8 +4,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
+#include <cstdio>
+#include <functional>
 #include <memory>
 #include <string>
+#include <unistd.h>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -21,6 +25,29 @@ std::string printable(std::string text) {
       text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c); }, '?');
   return text;
 }
+
+/// How far a long look has come, on a terminal only, and gone when it is over.
+class Look {
+ public:
+  [[nodiscard]] std::function<void(double)> tick() {
+    if (isatty(STDERR_FILENO) == 0) return {};
+    return [this](double share) {
+      const int percent = static_cast<int>(100.0 * share);
+      const auto now = std::chrono::steady_clock::now();
+      if (percent == shown_ || now - start_ < std::chrono::seconds(1)) return;
+      shown_ = percent;
+      fmt::print(stderr, "\r\033[Kreading {:>3} %", percent);
+      std::fflush(stderr);
+    };
+  }
+  ~Look() {
+    if (shown_ >= 0) fmt::print(stderr, "\r\033[K");
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  int shown_ = -1;
+};
 
 /// Six digits are what a reader takes in; --json has them all.
 std::string shown(const Json& value) {
@@ -60,7 +87,10 @@ void add_inspect(CLI::App& app, Command& action) {
   command->callback([path, json, &action] {
     action = [path, json] {
       Json result = {{"path", *path}};
-      result.update(inspect(*path));
+      {
+        Look look;
+        result.update(inspect(*path, look.tick()));
+      }
       if (*json)
         fmt::print("{}\n", result.dump(2, ' ', false, Json::error_handler_t::replace));
       else

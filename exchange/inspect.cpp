@@ -155,8 +155,8 @@ Json inspect_workflow(const fs::path& path) {
   return j;
 }
 
-Json inspect_recorder(const fs::path& path) {
-  const RecorderSummary s = summarize_recorder(path);
+Json inspect_recorder(const fs::path& path, const std::function<void(double)>& tick) {
+  const RecorderSummary s = summarize_recorder(path, tick);
   Json j = {{"kind", "recorder"}, {"rows", s.rows}, {"columns", s.columns}};
   if (s.has_time) {
     j["time"] = {s.time_first, s.time_last};
@@ -211,13 +211,13 @@ Json inspect_terrain(const fs::path& path) {
 
 }  // namespace
 
-Json inspect(const fs::path& path) {
+Json inspect(const fs::path& path, const std::function<void(double)>& tick) {
   std::error_code error;
-  if (fs::is_directory(path, error)) return inspect_run(path);
+  if (fs::is_directory(path, error)) return inspect_run(path, tick);
   if (is_hdf5(path)) return inspect_store(path);
   if (path.extension() == ".yaml" || path.extension() == ".yml") return inspect_workflow(path);
   if (is_terrain(path)) return inspect_terrain(path);
-  return is_motion_record(path) ? inspect_record(path) : inspect_recorder(path);
+  return is_motion_record(path) ? inspect_record(path) : inspect_recorder(path, tick);
 }
 
 }  // namespace flowslide

@@ -24,10 +24,41 @@ std::vector<fs::path> folders_in(const fs::path& folder) {
   return found;
 }
 
-std::vector<std::string> problems_of_result(const fs::path& result) {
+/// Between two looks of verify(), or less at the end of a file: good enough for a share.
+constexpr double kBlockBytes = 1 << 16;
+
+/// Bytes that are to be read and those that have been.
+class Counted {
+ public:
+  Counted(double all, const std::function<void(double)>& tick) : all_(all), tick_(tick) {}
+  void add(double bytes) {
+    done_ += bytes;
+    if (tick_ && all_ > 0.0) tick_(std::min(1.0, done_ / all_));
+  }
+
+ private:
+  double all_, done_ = 0.0;
+  const std::function<void(double)>& tick_;
+};
+
+double bytes_of_results(const fs::path& folder) {
+  double bytes = 0.0;
+  for (const fs::path& stage : folders_in(folder / "stages"))
+    for (const fs::path& result : folders_in(stage)) {
+      std::error_code error;
+      for (fs::recursive_directory_iterator it(result, error), end; !error && it != end;
+           it.increment(error)) {
+        std::error_code gone;
+        if (it->is_regular_file(gone)) bytes += static_cast<double>(it->file_size(gone));
+      }
+    }
+  return bytes;
+}
+
+std::vector<std::string> problems_of_result(const fs::path& result, Counted& counted) {
   const RecordRead read = read_record(result);
   if (!read.record) return {read.problem};
-  return verify(*read.record, result).problems;
+  return verify(*read.record, result, [&counted] { counted.add(kBlockBytes); }).problems;
 }
 
 /// Stages without checkpoints leave nothing that could be continued.
@@ -38,11 +69,13 @@ std::vector<std::string> problems_of_work(const fs::path& work) {
   return problem.empty() ? std::vector<std::string>{} : std::vector{problem};
 }
 
-void add_problems(Json& list, const fs::path& folder) {
+void add_problems(Json& list, const fs::path& folder, const std::function<void(double)>& tick) {
+  Counted counted(tick ? bytes_of_results(folder) : 0.0, tick);
   for (const fs::path& stage : folders_in(folder / "stages"))
     for (const fs::path& result : folders_in(stage)) {
       const bool work = result.extension() == ".partial";
-      for (const std::string& text : work ? problems_of_work(result) : problems_of_result(result))
+      for (const std::string& text :
+           work ? problems_of_work(result) : problems_of_result(result, counted))
         list.push_back(
             fmt::format("{}: {}", result.lexically_relative(folder).generic_string(), text));
     }
@@ -63,7 +96,7 @@ std::vector<std::string> in_order(const RunLock& lock, const std::optional<Json>
 
 }  // namespace
 
-Json inspect_run(const fs::path& folder) {
+Json inspect_run(const fs::path& folder, const std::function<void(double)>& tick) {
   const auto [lock, problem] = read_lock(folder);
   if (!lock && problem.empty())
     throw InputError(
@@ -88,7 +121,7 @@ Json inspect_run(const fs::path& folder) {
     }
     for (const std::string& text : problems_at_top(folder, *lock)) problems.push_back(text);
   }
-  add_problems(problems, folder);
+  add_problems(problems, folder, tick);
   j["problems"] = problems;
   if (result.json)
     for (const auto& [key, value] : result.json->items())

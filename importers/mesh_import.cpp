@@ -68,6 +68,23 @@ void rename(SectionMesh& section, const std::map<std::string, NamedTag>& names) 
   }
 }
 
+/// A side that cuts nothing off was meant to.
+void note_idle_cuts(SectionMesh& section, const MeshImportConfig& config) {
+  double begin = std::numeric_limits<double>::infinity(), end = -begin;
+  for (const Vec2& p : section.mesh.nodes) {
+    begin = std::min(begin, p[0]);
+    end = std::max(end, p[0]);
+  }
+  const auto note = [&](const char* side, const char* what, double at, double where) {
+    section.notes.push_back(
+        fmt::format("{}: x = {:g} m leaves nothing out, as the mesh {} at x = {:g} m. Are its "
+                    "number and unit right?",
+                    side, at, what, where));
+  };
+  if (config.left && *config.left < begin) note("left", "begins", *config.left, begin);
+  if (config.right && *config.right > end) note("right", "ends", *config.right, end);
+}
+
 }  // namespace
 
 void check(const MeshImportConfig& config) {
@@ -84,6 +101,7 @@ SectionMesh import_mesh(const MeshImportConfig& config) {
   const double length = unit_factor(config.length, Dim::length);
   SectionMesh section =
       config.gmsh ? read_gmsh(config.gmsh->path, length) : from_tables(*config.tables, length);
+  note_idle_cuts(section, config);
   if (config.left || config.right) {
     constexpr double kFar = std::numeric_limits<double>::infinity();
     keep_between(section, config.left.value_or(-kFar), config.right.value_or(kFar));

@@ -69,10 +69,11 @@ double apparent_unit_weight(const QuadMesh& mesh, const FemFrame& gravity) {
 
 std::vector<std::string> gravity_warnings(const QuadMesh& mesh, const FemFrame& gravity) {
   std::vector<std::string> warnings;
-  std::size_t tension = 0;
+  std::size_t tension = 0, lying = 0;
   double largest_stress = 0.0;
   for (const Stress<2>& s : gravity.stress) {
     tension += s[1] > 0.0;
+    lying += s[0] < s[1];
     largest_stress = std::max(largest_stress, std::abs(s[1]));
   }
   if (2 * tension > gravity.stress.size()) {
@@ -82,6 +83,12 @@ std::vector<std::string> gravity_warnings(const QuadMesh& mesh, const FemFrame& 
                     "`columns.stress` another?",
                     tension, gravity.stress.size()));
   }
+  // Soil that was never loaded by more has 0.4 to 0.6 of the vertical stress in the horizontal.
+  if (2 * tension <= gravity.stress.size() && 2 * lying > gravity.stress.size())
+    warnings.push_back(
+        fmt::format("gravity: the horizontal effective stress exceeds the vertical one in {} of {} "
+                    "elements. Is the order of `columns.stress` right, which is xx, yy, ...?",
+                    lying, gravity.stress.size()));
   const double weight = apparent_unit_weight(mesh, gravity);
   if (2 * tension <= gravity.stress.size() && !(weight >= kLightest && weight <= kHeaviest)) {
     warnings.push_back(

@@ -14,13 +14,14 @@ namespace {
 constexpr std::string_view kBlanks = " \t\v\f";
 constexpr std::size_t kMaxProblems = 10;
 
-bool is_blank(char c) { return kBlanks.find(c) != std::string_view::npos; }
+/// Of every character of files of gigabytes: a search in kBlanks costs a call.
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 std::string_view trim(std::string_view s) {
-  const auto first = s.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return s.substr(first, s.find_last_not_of(kBlanks) - first + 1);
+  while (!s.empty() && is_blank(s.front())) s.remove_prefix(1);
+  while (!s.empty() && is_blank(s.back())) s.remove_suffix(1);
+  return s;
 }
 
 // Windows libraries before 2015 print 1.#QNAN, -1.#IND, 1.#INF.
@@ -89,8 +90,7 @@ std::string NumberLine::parse(std::string_view line, std::vector<double>& values
     if (!parse_token(token, value)) return explain_token(token, values.size() + 1);
     values.push_back(value);
     line.remove_prefix(std::min(end + 1, line.size()));
-    const auto next = line.find_first_not_of(kBlanks);
-    line.remove_prefix(next == std::string_view::npos ? line.size() : next);
+    while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
   }
   return {};
 }
@@ -206,8 +206,9 @@ RecorderScan scan_recorder(const std::filesystem::path& path, const ColumnLabel&
   return scan;
 }
 
-RecorderSummary summarize_recorder(const std::filesystem::path& path) {
-  const RecorderScan scan = scan_recorder(path);
+RecorderSummary summarize_recorder(const std::filesystem::path& path,
+                                   const std::function<void(double)>& tick) {
+  const RecorderScan scan = scan_recorder(path, {}, tick);
   RecorderSummary summary{
       .columns = scan.columns, .rows = scan.rows, .problems = scan.problems, .notes = scan.notes};
   if (scan.value_min <= scan.value_max) {

@@ -97,7 +97,8 @@ struct RecorderSummary {
   std::vector<std::string> notes;
 };
 
-/// Throws FileError.
-RecorderSummary summarize_recorder(const std::filesystem::path& path);
+/// `tick` learns after every row what share of the file has been read. Throws FileError.
+RecorderSummary summarize_recorder(const std::filesystem::path& path,
+                                   const std::function<void(double)>& tick = {});
 
 }  // namespace flowslide

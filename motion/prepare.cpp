@@ -1,5 +1,6 @@
 #include "motion/prepare.hpp"
 
+#include "core/conventions.hpp"
 #include "motion/foreign.hpp"
 #include "motion/measures.hpp"
 
@@ -114,6 +115,30 @@ void check_size(const GroundMotion& motion) {
            motion.origin, motion.acceleration.size(), kMostSamples);
 }
 
+/// Scaling by more than this, up or down, makes another earthquake of a record.
+constexpr double kMostScaled = 10.0;
+
+/// What filtering and another step took from a motion, and what scaling made of it.
+std::vector<std::string> much_changed(double arias_before, const GroundMotion& processed,
+                                      std::optional<double> wanted) {
+  constexpr double kLeastLeft = 0.5;
+  std::vector<std::string> odd;
+  const double left = arias_intensity(processed) / arias_before;
+  if (left < kLeastLeft)
+    odd.push_back(fmt::format(
+        "filter and resample leave {:.2g} of the Arias intensity: most of the shaking is gone{}. "
+        "Are the corners and the step right?",
+        left, wanted ? ", and pga scales up what is left" : ""));
+  if (!wanted) return odd;
+  const double factor = *wanted / pga(processed);
+  if (factor > kMostScaled || factor * kMostScaled < 1.0)
+    odd.push_back(fmt::format(
+        "pga: {:.3g} g is {:.3g} times the peak of what it scales, {:.3g} g. Scaled by so much it is "
+        "the shaking of another earthquake, too short or too long for its size; is the unit right?",
+        *wanted / kGravity, factor, pga(processed) / kGravity));
+  return odd;
+}
+
 }  // namespace
 
 GroundMotion prepare_motion(const MotionConfig& config, const Progress& progress,
@@ -126,11 +151,15 @@ GroundMotion prepare_motion(const MotionConfig& config, const Progress& progress
   check_size(motion);
   if (config.baseline)
     motion = baseline_corrected(motion, config.baseline->degree, config.baseline->fit);
+  const double arias = arias_intensity(motion);
   if (config.filter) motion = filtered(motion, *config.filter, progress);
   if (config.resample)
     motion = resampled(motion, config.resample->dt, config.resample->method, progress);
   check_size(motion);
   const bool changed = config.baseline || config.filter || config.resample;
+  if (warnings)
+    for (std::string& odd : much_changed(arias, motion, config.pga))
+      warnings->push_back(std::move(odd));
   if (config.pga && (config.record || config.synthetic || changed))
     motion = scaled_to_pga(motion, *config.pga);
   if (warnings) {

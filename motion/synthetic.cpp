@@ -118,6 +118,10 @@ void check_settings(const SyntheticConfig& c) {
   check_range("lead", c.lead, 0.0, 600.0, " s");
   validate(c.strong_begin.has_value() == c.strong_end.has_value(),
            "synthetic motion: strong_begin and strong_end belong together");
+  validate(c.strong_begin || c.strong_ratio == SyntheticConfig{}.strong_ratio,
+           "synthetic motion: strong_ratio {} without strong_begin and strong_end (there is no "
+           "strong phase that it could raise) give both, or leave it out",
+           c.strong_ratio);
   if (c.strong_begin) {
     const double begin = *c.strong_begin, end = *c.strong_end;
     check_range("strong_ratio", c.strong_ratio, 0.0, 100.0, "");

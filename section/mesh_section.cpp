@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <set>
 
@@ -108,6 +109,28 @@ std::vector<MaterialName> used_materials(const SectionConfig& config, const Quad
   return materials;
 }
 
+/// Settings that had no part in the mesh.
+std::vector<std::string> idle_settings(const SectionConfig& config, const SectionMesh& section) {
+  std::vector<std::string> notes;
+  double begin = std::numeric_limits<double>::infinity(), end = -begin;
+  for (const Vec2& p : section.mesh.nodes) {
+    begin = std::min(begin, p[0]);
+    end = std::max(end, p[0]);
+  }
+  const PointRows& sizes = config.size_along_x;
+  if (!sizes.empty() && (sizes.front()[0] > end || sizes.back()[0] < begin))
+    notes.push_back(fmt::format(
+        "size_along_x: goes from x = {:g} to {:g} m, and the section from {:g} to {:g} m: one size "
+        "holds for all of it. Are numbers and unit right?",
+        sizes.front()[0], sizes.back()[0], begin, end));
+  for (const auto& [name, material] : config.materials)
+    if (std::ranges::none_of(section.materials,
+                             [&n = name](const MaterialName& m) { return m.name == n; }))
+      notes.push_back(fmt::format(
+          "material '{}': no element has it. Does a zone or a block lie where it should?", name));
+  return notes;
+}
+
 }  // namespace
 
 SectionMesh mesh_section(const SectionConfig& given) {
@@ -127,6 +150,7 @@ SectionMesh mesh_section(const SectionConfig& given) {
     section.sets.push_back(edges_along(mesh, name, to_points(set.line), 10.0 * layout.tolerance));
   for (std::string& note : quality_notes(mesh, measure_quality(mesh)))
     section.notes.push_back(std::move(note));
+  for (std::string& note : idle_settings(given, section)) section.notes.push_back(std::move(note));
   check(section);
   return section;
 }

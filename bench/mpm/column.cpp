@@ -79,6 +79,7 @@ Simulation<Dim> bench_column(int points_per_side, BasisKind basis, BenchLaw law)
   c.transfer = Transfer::apic;  // as bytes_per_update counts
   c.ground.friction = 0.5;
   c.left_roller = 0.0;
+  c.softening.reference_length = 1.25;
   return make_simulation<Dim>(p, c);
 }
 

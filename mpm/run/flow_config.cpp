@@ -56,12 +56,22 @@ void check(const FlowConfig& c) {
            "them");
 }
 
+std::string no_reference_length(const std::string& material, double cell) {
+  return fmt::format(
+      "softening.reference_length is missing, but '{}' softens (its softening strains hold for "
+      "cells of one size, and the runout hangs on it) give the cell for which the strains were "
+      "chosen, such as 'softening: {{reference_length: {:g} m}}'; where it was left out, it used "
+      "to be 1.25 m",
+      material, cell);
+}
+
 void Schema<SofteningSettings>::describe(FieldVisitor& v, SofteningSettings& c) {
   v.flag("regularise", c.regularise,
          "scale softening strains by reference_length / cell (crack band); off: results depend on "
          "the cell size");
-  v.quantity("reference_length", c.reference_length, Dim::length, {.above = 0.0},
-             "cell size at which the softening strains hold as they are given");
+  v.quantity(
+      "reference_length", c.reference_length, Dim::length, {.above = 0.0},
+      "cell size at which the softening strains hold as they are given; needed where soil softens");
 }
 
 void Schema<RestRule>::describe(FieldVisitor& v, RestRule& c) {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -17,7 +18,12 @@ enum class Stiffness { given, automatic };
 
 struct SofteningSettings {
   bool regularise = true;
-  double reference_length = 1.25;  ///< [m]
+  /// Cell for which strains hold as given [m]; no run of soil that softens begins without it.
+  std::optional<double> reference_length;
+  /// By which cells of this size [m] divide the strains.
+  [[nodiscard]] double scale(double cell) const {
+    return regularise && reference_length ? cell / *reference_length : 1.0;
+  }
 };
 
 /// A height field in place of the ground's polyline, in three dimensions.
@@ -94,6 +100,9 @@ struct FlowConfig : mpm::StepSettings {
 
 /// Relations that ranges cannot express. Throws InputError.
 void check(const FlowConfig& c);
+
+/// What is said of a material that softens in cells [m] where no length is given.
+std::string no_reference_length(const std::string& material, double cell);
 
 template <>
 struct Schema<SofteningSettings> {

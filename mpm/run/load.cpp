@@ -2,6 +2,7 @@
 
 #include "core/elementary.hpp"
 #include "model/brought_state.hpp"
+#include "mpm/run/stiffness.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -30,8 +31,7 @@ bool frictional(const typename M::Params& p) {
 
 template <int Dim>
 SolverMaterial solver_material(const MaterialSpec& spec, const FlowConfig& config) {
-  const double scale =
-      config.softening.regularise ? config.cell / config.softening.reference_length : 1.0;
+  const double scale = config.softening.scale(config.cell);
   return std::visit(
       [&]<class M>(const Material<M>& m) {
         const Elasticity e = M::elasticity(m.params);
@@ -249,6 +249,7 @@ Simulation<Dim> make_simulation(const ParticleSet& particles, const FlowConfig& 
   validate(particles.dim == Dim, "the particles have {} dimensions (this run has {})",
            particles.dim, Dim);
   validate(particles.size() > 0, "there are no particles to run");
+  expect_reference_length(particles, config);
   Simulation<Dim> s = make_scene<Dim>(config);
   for (const MaterialSpec& spec : particles.materials)
     s.materials.push_back(solver_material<Dim>(spec, config));

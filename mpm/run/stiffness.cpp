@@ -128,8 +128,7 @@ Elasticity no_stiffer(const Elasticity& given, double bulk, double shear) {
 
 std::vector<double> softening_slopes(const ParticleSet& particles, const FlowConfig& config,
                                      const std::vector<double>& pressure) {
-  const double scale =
-      config.softening.regularise ? config.cell / config.softening.reference_length : 1.0;
+  const double scale = config.softening.scale(config.cell);
   std::vector<double> slopes;
   for (std::size_t i = 0; i < particles.materials.size(); ++i) {
     const MaterialSpec& m = particles.materials[i];
@@ -139,6 +138,16 @@ std::vector<double> softening_slopes(const ParticleSet& particles, const FlowCon
         softens ? std::max(0.0, strength_lost(particles, i, pressure[i])) * scale / width : 0.0);
   }
   return slopes;
+}
+
+void expect_reference_length(const ParticleSet& particles, const FlowConfig& config) {
+  if (!config.softening.regularise || config.softening.reference_length) return;
+  constexpr double kAny = 1e3;  // under which friction that is lost is strength lost [Pa]
+  const std::vector<double> pressure(particles.materials.size(), kAny);
+  const std::vector<double> slopes = softening_slopes(particles, config, pressure);
+  for (std::size_t i = 0; i < slopes.size(); ++i)
+    if (slopes[i] > 0.0)
+      throw InputError(no_reference_length(particles.materials[i].name, config.cell));
 }
 
 std::vector<std::string> snapping_soils(const ParticleSet& particles, const FlowConfig& config) {

@@ -25,6 +25,9 @@ Elasticity no_stiffer(const Elasticity& given, double bulk, double shear);
 std::vector<double> softening_slopes(const ParticleSet& particles, const FlowConfig& config,
                                      const std::vector<double>& pressure);
 
+/// Throws InputError where soil softens and nothing tells for which cells its strains hold.
+void expect_reference_length(const ParticleSet& particles, const FlowConfig& config);
+
 /// A sentence for each material whose softening runs on without deformation.
 std::vector<std::string> snapping_soils(const ParticleSet& particles, const FlowConfig& config);
 

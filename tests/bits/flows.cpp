@@ -84,6 +84,7 @@ FlowConfig settings() {
   c.ground.surface = {{-10.0, 0.0}, {8.0, 0.0}, {20.0, -3.0}};
   c.ground.friction = 0.4;
   c.left_roller = 0.0;
+  c.softening.reference_length = 1.25;
   return c;
 }
 

@@ -6,7 +6,11 @@
 #include "tests/support/materials.hpp"
 #include "tests/support/scratch.hpp"
 
+#include <algorithm>
+#include <vector>
+
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 using namespace flowslide;
 using Catch::Contains;
@@ -47,6 +51,20 @@ TEST_CASE("a file is told by what is in it") {
   scratch.write("r.out", "0.0 1 2\n0.1 3 4\n");
   CHECK(inspect(scratch / "r.out")["columns"] == 3);
   CHECK_THROWS_AS(inspect(scratch / "none"), FileError);
+}
+
+TEST_CASE("a long look tells how far it is") {
+  const Scratch scratch;
+  std::string rows;
+  for (int i = 0; i < 20000; ++i) rows += fmt::format("{} 1.0 2.0\n", 0.01 * i);
+  scratch.write("r.out", rows);
+  std::vector<double> shares;
+  const Json j = inspect(scratch / "r.out", [&](double share) { shares.push_back(share); });
+  CHECK(j["rows"] == 20000);
+  REQUIRE(!shares.empty());
+  CHECK(std::is_sorted(shares.begin(), shares.end()));
+  CHECK(shares.front() < 0.9);
+  CHECK(shares.back() == 1.0);
 }
 
 TEST_CASE("an earthquake record is told from a recorder") {

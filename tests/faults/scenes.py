@@ -97,6 +97,7 @@ STAGES = {
       frame_interval: 1 s
       left_roller: -64 m
       ground: {surface: [[-64 m, -8 m], [80 m, -8 m], [80 m, 0 m]], friction: 0.3}
+      softening: {reference_length: 1.25 m}
 """,
     "report": """
   report:

@@ -53,7 +53,8 @@ SCENE = {
         "flow": {"uses": "mpm.run", "in": {"particles": "map.particles"}, "with": {
             "cell": "1 m", "end": "0.5 s", "transfer": "aflip", "left_roller": "0 m",
             "ground": {"surface": [["0 m", "0 m"]]}, "frame_interval": "0.25 s",
-            "sample_interval": "0.05 s"}},
+            "sample_interval": "0.05 s",
+            "softening": {"reference_length": "1.25 m"}}},
         "report": {"uses": "report.runout", "in": {
             "history": "shake.history", "zone": "zone.zone", "particles": "map.particles",
             "audit": "map.audit", "flow": "flow.history"},

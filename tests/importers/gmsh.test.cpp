@@ -197,6 +197,14 @@ TEST_CASE("materials of imported meshes can be named") {
   CHECK(material_tag(import_mesh(config), "foundation") == 170);
   config.materials["clay"].tag = 3;
   CHECK_THROWS_WITH(import_mesh(config), Contains("'clay' has the tag 3") && Contains("168 170"));
+  config.materials.erase("clay");
+  const std::size_t before = import_mesh(config).notes.size();
+  config.left = -1e6;
+  config.right = 1e6;
+  const std::vector<std::string> notes = import_mesh(config).notes;
+  REQUIRE(notes.size() == before + 2);
+  CHECK_THAT(notes[before], Contains("left: x = -1e+06 m leaves nothing out"));
+  CHECK_THAT(notes[before + 1], Contains("right: x = 1e+06 m leaves nothing out"));
   config.length = "furlong";
   CHECK_THROWS_AS(import_mesh(config), InputError);
 }

@@ -285,6 +285,9 @@ TEST_CASE("implausible states are warned of, not corrected", "[importers]") {
   model.config.units.stress = "Pa";
   CHECK_THAT(warning(), Contains("are `units.stress` and `units.length`"));
   model.config.units.stress = "kPa";
+  model.config.columns.stress = {"yy", "xx", "xy"};
+  CHECK_THAT(warning(), Contains("horizontal effective stress exceeds the vertical one in 2 of 2"));
+  model.config.columns.stress = {"xx", "yy", "xy"};
   model.folder.write("Gstress.out", "0 2 4 0.5 2 4 0.5\n");
   CHECK_THAT(warning(), Contains("vertical effective stress is positive in 2 of 2 elements"));
   model.folder.write("Gstress.out", SmallModel::stress_rows(0, 1));

@@ -6,6 +6,8 @@
 #include "signals.hpp"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 using namespace flowslide;
 using Catch::Contains;
@@ -59,6 +61,25 @@ TEST_CASE("how long a made motion becomes is known before", "[motion]") {
                                         "preset: loma-prieta-lick\npga: 0.2 g\n"
                                         "filter: {high_pass: 0.2 Hz, keep_padding: true}\n"))
                   .has_value());
+}
+
+TEST_CASE("processing that leaves little of a record is told", "[motion]") {
+  const DataFolder folder;
+  write_motion(folder.path("m.csv"), harmonic(1.0, 2.0, 0.01, 10.0));
+  const auto told = [&](const std::string& text) {
+    std::vector<std::string> warnings;
+    (void)prepare_motion(read_config(folder, "record: m.csv\nunit: m/s2\n" + text), {}, &warnings);
+    return fmt::format("{}", fmt::join(warnings, "\n"));
+  };
+  // A sine of 1 m/s2 at 2 Hz: a band around it keeps it, corners in the wrong place do not.
+  CHECK(told("").empty());
+  CHECK(told("filter: {high_pass: 0.2 Hz, low_pass: 20 Hz}\npga: 0.3 g\n").empty());
+  CHECK_THAT(told("filter: {high_pass: 8 Hz}\npga: 1 m/s2\n"),
+             Contains("of the Arias intensity") && Contains("pga scales up"));
+  CHECK_THAT(told("filter: {low_pass: 0.5 Hz}\n"), Contains("most of the shaking is gone"));
+  CHECK(told("pga: 0.9 g\n").empty());
+  CHECK_THAT(told("pga: 11 m/s2\n"), Contains("11 times the peak"));
+  CHECK_THAT(told("pga: 9 cm/s2\n"), Contains("0.0902 times the peak"));
 }
 
 TEST_CASE("a record without processing stays what it is", "[motion]") {

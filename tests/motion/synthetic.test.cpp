@@ -151,6 +151,7 @@ TEST_CASE("impossible synthetic motions are refused", "[motion]") {
              Contains("strong_end"));
   CHECK_THAT(problem([](auto& c) { c.strong_begin = 0.0, c.strong_end = 4.0; }),
              Contains("strong_begin"));
+  CHECK_THAT(problem([](auto& c) { c.strong_ratio = 50.0; }), Contains("without strong_begin"));
   CHECK_THROWS_WITH(preset_config("tabas", 1.0), Contains("tabas-dayhook"));
 }
 

@@ -113,6 +113,24 @@ blocks:
   CHECK(longest == Approx(4.0).epsilon(0.12));
 }
 
+TEST_CASE("settings that have no part in the mesh are told") {
+  const auto notes_with = [](const std::string& sizes, const std::string& materials) {
+    const SectionMesh s = mesh_section(
+        section_of("size: 2 m\nsize_along_x: " + sizes + "\nmaterials: " + materials + R"(
+blocks:
+  all: {outline: [[0 m, 0 m], [40 m, 0 m], [40 m, 4 m], [0 m, 4 m]], material: sand}
+)"));
+    return s.notes;
+  };
+  CHECK(notes_with("[[0 m, 4 m], [40 m, 1 m]]", "{sand: {tag: 1}}").empty());
+  const auto beyond = notes_with("[[400 m, 4 m], [900 m, 1 m]]", "{sand: {tag: 1}}");
+  REQUIRE(beyond.size() == 1);
+  CHECK_THAT(beyond[0], Contains("x = 400 to 900 m") && Contains("from 0 to 40 m"));
+  const auto idle = notes_with("[[0 m, 2 m]]", "{sand: {tag: 1}, clay: {tag: 2}}");
+  REQUIRE(!idle.empty());
+  CHECK_THAT(idle.back(), Contains("'clay': no element"));
+}
+
 TEST_CASE("a crest that is narrow for its elements is told with its price") {
   const auto mesh_with = [](const std::string& size) {
     return mesh_section(section_of("size: " + size + R"(

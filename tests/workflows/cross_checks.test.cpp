@@ -389,7 +389,8 @@ TEST_CASE("Sections have the size of sections") {
   CHECK_THAT(with(1000.0).errors, Contains("another unit of length"));
   CHECK_THAT(with(100.0).warnings, Contains("more than 10 km"));
   CHECK_THAT(with(1.0, 0.0, 50.0).warnings, Contains("more than a kilometre high"));
-  CHECK_THAT(with(1e-3).warnings, Contains("less than half a metre"));
+  CHECK_THAT(with(1e-3).warnings, Contains("less than 5 m"));
+  CHECK_THAT(with(0.5, 0.0, 8.0).warnings, Contains("x and y exchanged"));
 }
 
 TEST_CASE("Terrain lies under the dam and has heights there") {

@@ -101,6 +101,7 @@ FlowConfig dam_config(const DamScene& scene) {
   c.transfer = Transfer::aflip;
   c.left_roller = -scene.upstream;
   c.ground.friction = 0.7;
+  c.softening.reference_length = 1.25;
   if (scene.width > 0.0 && scene.walls) c.side_rollers = {0.0, scene.width};
   return c;
 }

@@ -25,6 +25,7 @@ FlowConfig free_space(double cell) {
   c.gravity = 0.0;
   c.transfer = Transfer::apic;
   c.ground.surface = {{0.0, -1e6}};
+  c.softening.reference_length = 1.25;
   return c;
 }
 

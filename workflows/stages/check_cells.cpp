@@ -27,9 +27,11 @@ void check_cells(const FlowConfig& flow, const Soil& soil, Findings& found) {
   else if (cells < kFewCells * (1.0 - 1e-6))
     found.warnings.push_back(fmt::format(
         "cell: {:g} m are {:.2g} cells over the height of the soil of {:g} m. So coarse a grid "
-        "gives a runout that is too short, by half with 6 cells; take {:.3g} m or less for numbers "
-        "to be used.",
-        flow.cell, cells, height, height / 24.0));
+        "gives a runout that is too short, by half with 6 cells{}; take {:.3g} m or less for "
+        "numbers to be used.",
+        flow.cell, cells, height,
+        flow.basis == mpm::BasisKind::mls ? ", and with basis mls by more than with quadratic" : "",
+        height / 24.0));
 }
 
 void compare_cells(const FlowConfig& flow, const MapConfig& map, Findings& found) {
@@ -60,6 +62,33 @@ void compare_cells(const FlowConfig& flow, const MapConfig& map, Findings& found
           flow.grid_origin[0], flow.grid_origin[1], map.grid_origin[0], map.grid_origin[1]));
       return;
     }
+  }
+}
+
+void check_points(const FlowConfig& flow, const MapConfig& map, const Soil& soil, Findings& found) {
+  constexpr double kFew = 2.0, kMany = 4.0;  // per cell and direction
+  const bool gauss = map.seeding == Seeding::gauss;
+  if (gauss && !(soil.largest > 0.0)) return;
+  const double points =
+      map.points_per_cell * flow.cell / (gauss ? std::sqrt(soil.largest) : map.cell);
+  const char* where = gauss ? " in the largest elements" : "";
+  if (points < 1.0 - 1e-9) {
+    if (gauss)
+      refuse(found,
+             "seeding: gauss leaves {:.2g} points per cell of {:g} m and direction in elements of "
+             "{:.3g} m2 (between points so far apart there is no soil) take lattice, larger cells "
+             "or more points",
+             points, flow.cell, soil.largest);
+  } else if (points < kFew * (1.0 - 1e-6)) {
+    warn(found,
+         "points_per_cell: {:.2g} per cell and direction{} are too few: soil that stretches tears "
+         "into pieces. Take 2.",
+         points, where);
+  } else if (points > kMany * (1.0 + 1e-6) && !gauss) {
+    warn(found,
+         "points_per_cell: {:.2g} per cell and direction take {:.3g} times as long as 2. "
+         "Smaller cells make better use of them.",
+         points, 0.25 * points * points);
   }
 }
 

@@ -91,6 +91,7 @@ Soil soil_of(const SectionMesh& section, const MapConfig& config,
                         centre[1] < box.ymax;
     if (!inside) continue;
     soil.area += area(quad);
+    soil.largest = std::max(soil.largest, area(quad));
     soil.centres.push_back(centre);
     for (const Vec2& p : quad) {
       const Vec2 clamped{std::clamp(p[0], box.xmin, box.xmax),

@@ -56,6 +56,30 @@ void check_transfer(const FlowConfig& flow, Findings& found) {
                                   : "motion that the grid does not see is not damped");
 }
 
+/// What replaces a point's velocity by that of the grid acts like a viscosity of the order of the
+/// cell times the speed of waves, which stops a flow short (docs/theory/mpm.md).
+void check_viscosity(const FlowConfig& flow, const Soil& soil, Findings& found) {
+  using mpm::Transfer;
+  constexpr double kEnoughCells = 32.0;
+  if (flow.transfer != Transfer::apic && flow.transfer != Transfer::tpic) return;
+  if (soil.counted.empty()) return;
+  const double height = soil.counted.height(), cells = height / flow.cell;
+  if (cells < kEnoughCells * (1.0 - 1e-6))
+    warn(found,
+         "transfer: {} holds a flow back like a viscosity that grows with the cell. With {:.2g} "
+         "cells over {:g} m of soil the runout is too short; take aflip, or cells of {:.3g} m or "
+         "less.",
+         flow.transfer == Transfer::apic ? "apic" : "tpic", cells, height, height / kEnoughCells);
+}
+
+/// The slope of linear functions jumps where a point crosses into the next cell.
+void check_basis(const FlowConfig& flow, Findings& found) {
+  if (flow.basis == mpm::BasisKind::linear)
+    warn(found,
+         "basis: linear functions give soil that flows from cell to cell a jolt at each: the run "
+         "may break off, or throw points about. Take quadratic or mls.");
+}
+
 void check_rest(const FlowConfig& flow, const Soil& soil, Findings& found) {
   constexpr double kMostShare = 0.01, kFastest = 0.2;  // [-], [m/s]
   const RestRule& rest = flow.rest;
@@ -64,6 +88,11 @@ void check_rest(const FlowConfig& flow, const Soil& soil, Findings& found) {
          "end: {:g} s is before rest.window has passed, {:g} s: the run cannot come to rest, and "
          "its runout is a lower bound.",
          flow.end, rest.window);
+  if (flow.sample_interval > rest.window)
+    warn(found,
+         "sample_interval: {:g} s is longer than rest.window, {:g} s: rest is looked for in the "
+         "rows of the time series, and the run may go on to its end.",
+         flow.sample_interval, rest.window);
   const double fall = soil.all.empty() ? 0.0 : std::sqrt(soil.all.height() / kGravity);
   if (rest.window < fall)
     warn(
@@ -95,20 +124,13 @@ void check_sleep(const FlowConfig& flow, Findings& found) {
          held);
 }
 
-bool softens(const MapMaterial& m) {
-  if (m.liquefied) return true;
-  const auto down = [](const auto& law) {
-    return law && (law->residual_cohesion || law->residual_friction_angle);
-  };
-  return down(m.law.of<MohrCoulomb>()) || down(m.law.of<DruckerPrager>()) ||
-         m.law.of<ResidualStrength>();
-}
-
 }  // namespace
 
 void check_scheme(const FlowConfig& flow, const Soil& soil, Findings& found) {
   check_resistance(flow, found);
   check_transfer(flow, found);
+  check_viscosity(flow, soil, found);
+  check_basis(flow, found);
   check_rest(flow, soil, found);
   check_sleep(flow, found);
   constexpr double kFarthest = 1e6;  // cells; the grid numbers its blocks with 20 bits
@@ -120,21 +142,6 @@ void check_scheme(const FlowConfig& flow, const Soil& soil, Findings& found) {
         "grid_origin: ({:g}, {:g}) m lies {:.3g} cells from the soil (farther than the grid can "
         "number) any node of the grid will do, such as one in the section",
         flow.grid_origin[0], flow.grid_origin[1], away / flow.cell));
-}
-
-void check_softening(const FlowConfig& flow, const MapConfig& map, const Soil& soil,
-                     Findings& found) {
-  const SofteningSettings& s = flow.softening;
-  if (!s.regularise || soil.counted.empty()) return;
-  const bool any = std::any_of(map.materials.begin(), map.materials.end(),
-                               [](const auto& m) { return softens(m.second); });
-  // As for the cells themselves, between fewer than four there is no slip surface.
-  if (any && s.reference_length > 0.25 * soil.counted.height())
-    warn(found,
-         "softening.reference_length: strains that hold in cells of {:g} m are those of no slip "
-         "surface in soil {:g} m high; in cells of {:g} m they are stretched by {:.3g}, and the "
-         "soil may never soften.",
-         s.reference_length, soil.counted.height(), flow.cell, s.reference_length / flow.cell);
 }
 
 }  // namespace flowslide

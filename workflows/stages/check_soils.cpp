@@ -67,6 +67,18 @@ void check_stiffness(const std::string& where, double modulus, double density, d
                     where, modulus / 1e3, 100.0 * weight / modulus, weight / 1e3, height));
 }
 
+/// Constants of soil that is hardly compressible: steps shorten with the bulk modulus.
+void check_incompressible(const std::string& where, double poisson, Findings& found) {
+  constexpr double kEnough = 0.495, kMostTimes = 2.0;
+  const auto wave2 = [](double nu) { return (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)); };
+  const double times = std::sqrt(wave2(poisson) / wave2(kEnough));
+  if (poisson > kEnough && times > kMostTimes)
+    found.warnings.push_back(fmt::format(
+        "{}.poisson_ratio: {:g} takes {:.2g} times as many steps as {:g}, and keeps the volume no "
+        "better than a runout can tell.",
+        where, poisson, times, kEnough));
+}
+
 /// Unset: the law has no such parameter, or it is left out.
 double parameter_of(const AnyMaterial& law, const char* name) {
   const LawParameters p = to_parameters(law);
@@ -145,8 +157,28 @@ void check_fem_scheme(const FemConfig& fem, Findings& found) {
 }  // namespace
 
 void check_densities(const std::vector<HistoryMaterial>& materials, Findings& found) {
-  for (const HistoryMaterial& m : materials)
-    judge("materials." + m.name + ".density", m.density, 1.0, "kg/m3", kDensity, kUnitHint, found);
+  constexpr double kWater = 1000.0;  // [kg/m3]
+  for (const HistoryMaterial& m : materials) {
+    const std::string where = "materials." + m.name;
+    judge(where + ".density", m.density, 1.0, "kg/m3", kDensity, kUnitHint, found);
+    if (!is_set(m.porosity)) continue;
+    // Between full of water and dry.
+    const double full = (m.density - m.porosity * kWater) / (1.0 - m.porosity);
+    const double grains = std::clamp(2650.0, full, m.density / (1.0 - m.porosity));
+    judge(fmt::format("{}: density of the grains that density {:g} kg/m3 and porosity {:g} imply",
+                      where, m.density, m.porosity),
+          grains, 1.0, "kg/m3", kGrains,
+          "density is that of grains and water together, and porosity is no void ratio", found);
+  }
+}
+
+void check_k0(double k0, Findings& found) {
+  constexpr double kLow = 0.2, kHigh = 3.0;  // loose sand has 0.4 to 0.5, clay that bore ice 3
+  if (!(k0 >= kLow && k0 <= kHigh))
+    warn(found,
+         "sigma_zz.k0: {:g} lies outside {:g} to {:g}, where that of soil lies. It is the ratio of "
+         "two stresses.",
+         k0, kLow, kHigh);
 }
 
 void check_map_materials(const MapConfig& map, const std::vector<HistoryMaterial>& materials,
@@ -160,6 +192,7 @@ void check_map_materials(const MapConfig& map, const std::vector<HistoryMaterial
     const AnyMaterial law = make_material(m.law, name);
     const double modulus = parameter_of(law, "youngs_modulus");
     if (is_set(modulus)) check_stiffness(where, modulus, density, height, found);
+    check_incompressible(where, parameter_of(law, "poisson_ratio"), found);
     check_shear_strength(where, parameter_of(law, "cohesion"), parameter_of(law, "friction_angle"),
                          found);
     if (is_set(parameter_of(law, "residual_cohesion")) ||
@@ -168,6 +201,7 @@ void check_map_materials(const MapConfig& map, const std::vector<HistoryMaterial
                               parameter_of(law, "residual_strain"), found);
     if (!m.liquefied) continue;
     check_stiffness(where + ".liquefied", m.liquefied->youngs_modulus, density, height, found);
+    check_incompressible(where + ".liquefied", m.liquefied->poisson_ratio, found);
     if (map.c_soft_ratio < 1.0 && m.liquefied->residual_strain > 0.0)
       check_softening_strains(where + ".liquefied", 0.0, m.liquefied->residual_strain, found);
   }

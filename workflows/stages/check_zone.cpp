@@ -206,7 +206,8 @@ void check_region(const std::string& name, const ReportRegion& region, const Qua
 
 void check_size(const QuadMesh& mesh, Findings& found) {
   const Extent e = extent_of(mesh);
-  constexpr double kLargest = 1e5, kLarge = 1e4, kHigh = 1e3, kSmall = 0.5;  // [m]
+  constexpr double kLargest = 1e5, kLarge = 1e4, kHigh = 1e3, kSmall = 5.0;  // [m]
+  constexpr double kColumn = 10.0;  // a column of soil may be higher than wide [m]
   const double size = std::max(e.right - e.left, e.height());
   const std::string span = "the section spans " + span_text(e);
   if (!(size < kLargest))
@@ -219,7 +220,9 @@ void check_size(const QuadMesh& mesh, Findings& found) {
   else if (e.height() > kHigh)
     found.warnings.push_back(span + ", more than a kilometre high. Is the unit of length right?");
   else if (size < kSmall)
-    found.warnings.push_back(span + ", less than half a metre. Is the unit of length right?");
+    found.warnings.push_back(span + ", less than 5 m. Is the unit of length right?");
+  else if (e.right - e.left > kColumn && e.height() > e.right - e.left)
+    found.warnings.push_back(span + ": it is higher than long. Are x and y exchanged?");
 }
 
 }  // namespace flowslide

@@ -46,6 +46,7 @@ struct Soil {
   Extent all, counted;        ///< counted: what counts for the runout
   Extent uncut;               ///< what would count without the box
   double area = 0.0;          ///< [m2]
+  double largest = 0.0;       ///< area of its largest element [m2]
   std::vector<Vec2> centres;  ///< of its elements, inside the box
 };
 
@@ -72,14 +73,20 @@ void check_terrain(const FlowConfig& flow, const Soil& soil, Findings& found);
 /// Cells against the height of the soil and those of the transfer; memory for the points.
 void check_cells(const FlowConfig& flow, const Soil& soil, Findings& found);
 void compare_cells(const FlowConfig& flow, const MapConfig& map, Findings& found);
+/// Points of the transfer in each cell of the flow.
+void check_points(const FlowConfig& flow, const MapConfig& map, const Soil& soil, Findings& found);
 /// `memory` in bytes; machine_memory() but for tests.
 void check_memory(const MapConfig& map, const Soil& soil, double width, double memory,
                   Findings& found);
 
 void check_densities(const std::vector<HistoryMaterial>& materials, Findings& found);
+/// Earth pressure at rest out of the plane, of an import.
+void check_k0(double k0, Findings& found);
 /// Stiffness of the materials of a transfer.
 void check_map_materials(const MapConfig& map, const std::vector<HistoryMaterial>& materials,
                          const Soil& soil, Findings& found);
+/// What the transfer makes of stress, and errors that its audit would pass.
+void check_transfer_rules(const MapConfig& map, Findings& found);
 /// A box that holds nothing, elements inside the box without a material, and soil that can liquefy
 /// without a law for it.
 void check_map_names(const MapConfig& map, const SectionMesh& section,
@@ -89,6 +96,12 @@ void check_map_names(const MapConfig& map, const SectionMesh& section,
 /// Soils and water of the finite elements.
 void check_fem_soils(const FemConfig& fem, Findings& found);
 void check_water(const FemConfig& fem, const QuadMesh& mesh, Findings& found);
+
+/// How the ends of the section hold it.
+void check_sides(const FemConfig& fem, const QuadMesh& mesh, Findings& found);
+/// How often a shaking is recorded, that ends at `end` and has a mean period, both [s] if known.
+void check_recording(const FemConfig& fem, const QuadMesh& mesh, std::optional<double> end,
+                     std::optional<double> mean_period, Findings& found);
 
 /// Residual strength against the stress it belongs to.
 void check_strength(const StrengthConfig& strength, Findings& found);
@@ -108,6 +121,8 @@ void check_region(const std::string& name, const ReportRegion& region, const Qua
 /// rule's settings, with its dot.
 void check_transfer_time(const TransferRuleConfig& rule, double end, std::string_view above,
                          Findings& found);
+/// Residuals of balances from which a report warns.
+void check_limits(const ReportConfig& report, Findings& found);
 /// Settings of fem.run's stop_at_transfer that transfer.zone has otherwise.
 void compare_transfer_rules(const StopAtTransferConfig& stop, const ZoneConfig& zone,
                             Findings& found);

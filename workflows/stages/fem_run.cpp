@@ -94,6 +94,8 @@ struct FemRun {
     if (!p.section) return p;
     found.work = shaking_work(config, p.section->mesh, p.end, config.stop_at_transfer.has_value());
     check_water(config, p.section->mesh, found);
+    check_sides(config, p.section->mesh, found);
+    check_recording(config, p.section->mesh, p.end, p.mean_period, found);
     (void)fem::build_model(*p.section, config);  // names, sets and ends against the mesh
     p.materials = fem::history_materials(*p.section, config);
     if (config.stop_at_transfer) try {

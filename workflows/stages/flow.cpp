@@ -64,6 +64,7 @@ struct FlowStage {
     check_scheme(config, soil, found);
     check_softening(config, *p.map, soil, found);
     check_cells(config, soil, found);
+    check_points(config, *p.map, soil, found);
     check_terrain(config, soil, found);
     if (config.extrude) check_memory(*p.map, soil, config.extrude->width, machine_memory(), found);
     return p;

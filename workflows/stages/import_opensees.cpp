@@ -40,6 +40,7 @@ struct ImportOpenSees {
     found.warnings = std::move(import.warnings);
     check_size(p.section->mesh, found);
     check_densities(p.materials, found);
+    if (config.sigma_zz.k0) check_k0(*config.sigma_zz.k0, found);
     found.work = mesh_work(p.section->mesh);
     return p;
   }

@@ -36,6 +36,7 @@ struct MapStage {
   static std::any preview(const Config& config, const Previews& in, Findings& found) {
     Preview p = merged(in);
     p.map = config;
+    check_transfer_rules(config, found);
     if (!p.section || p.materials.empty()) return p;
     const Soil soil = soil_of(*p.section, config, p.materials);
     found.work = map_work(config, soil);

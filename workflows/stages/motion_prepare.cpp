@@ -30,9 +30,13 @@ struct MotionPrepareStage {
   static std::any preview(const Config& config, const Previews&, Findings& found) {
     Preview p;
     if (config.record) {
-      p.motion_end = prepare_motion(config, {}, &found.warnings).duration();
+      const GroundMotion motion = prepare_motion(config, {}, &found.warnings);
+      p.motion_end = motion.duration();
+      p.mean_period = mean_period(motion);
     } else {
       p.motion_end = made_duration(config);
+      p.mean_period =
+          config.preset ? preset_config(*config.preset, *config.pga).tm : config.synthetic->tm;
       const double peak = config.pga ? *config.pga : config.synthetic->pga;
       found.warnings = implausible("", peak, kUnset);
     }

@@ -8,6 +8,7 @@ Preview merged(const Previews& inputs) {
     const auto* p = std::any_cast<Preview>(&value);
     if (!p) continue;
     if (!all.motion_end) all.motion_end = p->motion_end;
+    if (!all.mean_period) all.mean_period = p->mean_period;
     if (!all.section) all.section = p->section;
     all.shakes = all.shakes || p->shakes;
     if (!all.end) all.end = p->end;

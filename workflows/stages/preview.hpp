@@ -19,6 +19,7 @@ namespace flowslide {
 struct Preview {
   std::shared_ptr<const SectionMesh> section;  ///< null where only a run can tell
   std::optional<double> motion_end;            ///< of the ground motion, if known [s]
+  std::optional<double> mean_period;           ///< of the ground motion, likewise [s]
   bool shakes = false;                         ///< the history has more than the state at rest
   std::optional<double> end;                   ///< of the shaking, if settings say it [s]
   std::vector<HistoryMaterial> materials;      ///< of the section; empty where only a run can tell

@@ -88,6 +88,7 @@ struct ReportStage {
     Preview p = merged(in);
     p.toe = config.toe;
     found.work = report_work(config);
+    check_limits(config, found);
     if (p.flow && p.flow->extrude)
       found.errors.emplace_back(
           "the runout has three dimensions (the report draws sections) take this stage out of the "
