@@ -25,7 +25,7 @@ std::vector<fs::path> folders_in(const fs::path& folder) {
 }
 
 std::vector<std::string> problems_of_result(const fs::path& result) {
-  const RecordRead read = read_record(result);
+  const RecordRead read = read_stage_record(result);
   if (!read.record) return {read.problem};
   return verify(*read.record, result).problems;
 }
