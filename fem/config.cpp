@@ -102,6 +102,10 @@ void Schema<FemDampingConfig>::describe(FieldVisitor& v, FemDampingConfig& c) {
   v.quantity("stiffness", c.stiffness, Dim::time, {.min = 0.0},
              "factor of the present elastic stiffness of the soil");
   v.group("like_newmark", c.like_newmark, Schema<LikeNewmarkConfig>::doc);
+  v.quantity("largest_ratio", c.largest_ratio, Dim::none, {.max = 100.0, .above = 0.0},
+             "most that stiffness damping may be of critical in the fastest motion of an element "
+             "by itself; thin stiff elements get a smaller factor of stiffness, and longer steps. "
+             "Left out: no bound");
 }
 
 void Schema<LikeNewmarkConfig>::describe(FieldVisitor& v, LikeNewmarkConfig& c) {

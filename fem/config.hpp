@@ -71,6 +71,7 @@ struct FemDampingConfig {
   std::optional<double> mass;                   ///< [-], 1/s
   std::optional<double> stiffness;              ///< [s]
   std::optional<LikeNewmarkConfig> like_newmark;
+  std::optional<double> largest_ratio;  ///< of the fastest motion of any element
 };
 
 struct StabilisationConfig {

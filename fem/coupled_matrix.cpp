@@ -70,7 +70,7 @@ void CoupledMatrix::add_elements(const Solver& s, double dt, double theta) {
     Eigen::Matrix<double, 12, 12> J = Eigen::Matrix<double, 12, 12>::Zero();
     const Elasticity c{.bulk = s.lambda[e] + 2.0 / 3.0 * s.shear[e], .shear = s.shear[e]};
     J.topLeftCorner<8, 8>() =
-        (theta * s.damping.stiffness + theta * theta * dt) * stiffness(s, e, c);
+        (theta * s.stiffness_damping[e] + theta * theta * dt) * stiffness(s, e, c);
     for (int i = 0; i < 4; ++i) {
       for (int j = 0; j < 4; ++j) {
         J(8 + i, 2 * j) = -theta * 0.25 * g.volume[e] * g.bx[j][e];

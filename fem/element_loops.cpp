@@ -143,7 +143,6 @@ void internal_forces(Solver& s, std::int32_t begin, std::int32_t end, Solver::Ch
   const Elements& g = s.layout.elements;
   const double* p = s.state.pressure.data();
   const double* v = s.state.velocity.data();
-  const double beta = s.damping.stiffness, rate = beta / s.dt;
   double work = 0.0, lost = 0.0;
   for (std::int32_t e = begin; e < end; ++e) {
     const std::array<std::int32_t, 4>& nodes = s.layout.nodes[e];
@@ -152,6 +151,7 @@ void internal_forces(Solver& s, std::int32_t begin, std::int32_t end, Solver::Ch
     const double u = s.layout.saturated[e]
                          ? 0.25 * (p[nodes[0]] + p[nodes[1]] + p[nodes[2]] + p[nodes[3]])
                          : 0.0;
+    const double beta = s.stiffness_damping[e], rate = beta / s.dt;
     const double volumetric = s.lambda[e] * (de[0] + de[1]);
     const double vxx = rate * (volumetric + 2.0 * s.shear[e] * de[0]);
     const double vyy = rate * (volumetric + 2.0 * s.shear[e] * de[1]);

@@ -103,6 +103,7 @@ BandFactor::BandFactor(const Sparse& pattern) : n_(static_cast<std::int32_t>(pat
   inverse_.resize(n_);
   reach_ = (width_ + kBlock - 1) / kBlock * kBlock;
   const std::size_t blocks = (static_cast<std::size_t>(n_) + kBlock - 1) / kBlock;
+  skip_.resize(blocks);
   left_.resize(blocks * kBlock * reach_);
   blocks_.resize(2 * blocks * kBlockSize);
   work_.assign(reach_ + blocks * kBlock, 0.0);
@@ -150,8 +151,13 @@ void BandFactor::set_block(std::int32_t i) {
     return rows_[static_cast<std::size_t>(r) * (w + 1) + (c - r + w)];
   };
   double* left = left_.data() + static_cast<std::size_t>(i) * reach_;  // empty for a diagonal
+  std::int32_t first = reach_;
   for (std::int32_t r = i; r < i + kBlock; ++r)
-    for (std::int32_t c = i - reach_; c < i; ++c) *left++ = element(r, c);
+    for (std::int32_t c = 0; c < reach_; ++c) {
+      *left = element(r, i - reach_ + c);
+      if (*left++ != 0.0) first = std::min(first, c);
+    }
+  skip_[i / kBlock] = first / kBlock * kBlock;
   double* block = &blocks_[2 * kBlock * static_cast<std::size_t>(i)];
   double* transpose = block + kBlockSize;
   std::fill(block, block + 2 * kBlockSize, 0.0);
@@ -179,7 +185,7 @@ void BandFactor::solve(double* b) {
     for (std::int32_t r = 0; r < kBlock; ++r) {
       const double *l = left(i, r), *before = x + i - reach_;
       Block sum{};
-      for (std::int32_t k = 0; k < reach_; k += kBlock) {
+      for (std::int32_t k = skip_[i / kBlock]; k < reach_; k += kBlock) {
         load(row, l + k);
         load(part, before + k);
         sum += row * part;
@@ -192,7 +198,7 @@ void BandFactor::solve(double* b) {
   for (std::int32_t i = (n_ - 1) / kBlock * kBlock; i >= 0; i -= kBlock) {
     std::copy(x + i, x + i + kBlock, y.begin());
     combine(block(i), y.data(), x + i);
-    for (std::int32_t k = 0; k < reach_; k += kBlock) {
+    for (std::int32_t k = skip_[i / kBlock]; k < reach_; k += kBlock) {
       Block sum{};
       for (std::int32_t r = 0; r < kBlock; ++r) {
         load(row, left(i, r) + k);

@@ -31,8 +31,9 @@ class BandFactor {
   std::vector<double> rows_;            ///< L[i][i - width_ .. i], row after row
   std::vector<double> inverse_;         ///< 1/L[i][i]
   // For solving, in blocks of rows; beyond the last row those of a unit matrix.
-  std::int32_t reach_ = 0;      ///< columns left of a block, a multiple of its size
-  std::vector<double> left_;    ///< L left of each block, row after row
+  std::int32_t reach_ = 0;          ///< columns left of a block, a multiple of its size
+  std::vector<double> left_;        ///< L left of each block, row after row
+  std::vector<std::int32_t> skip_;  ///< places of `left_` that hold zeros in all rows of a block
   std::vector<double> blocks_;  ///< inverses of the blocks on the diagonal, and their transposes
   std::vector<double> work_;    ///< as many zeros as a block reaches, and the unknowns
 };

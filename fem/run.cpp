@@ -116,7 +116,7 @@ class ExplicitSteps {
 
  private:
   void choose(Solver& s, double left) {
-    const double allowed = courant_ * stable_step({soil_frequency(s), water_}, s.damping.stiffness);
+    const double allowed = courant_ * stable_step(s, water_);
     if (!(allowed > 1e-9))
       throw NumericsError(fmt::format(
           "the stable step has fallen to {:.3g} s at {:.4f} s (soil has become extremely stiff or "
@@ -171,6 +171,7 @@ Solver make_section_at_rest(const SectionMesh& section, const FemConfig& config,
   progress.poll();
   facts.out_of_balance = out_of_balance(s);
   refresh_moduli(s);
+  if (config.damping.largest_ratio) limit_stiffness_damping(s, *config.damping.largest_ratio);
   set_stabilisation(s, config.stabilisation);
   if (config.stabilisation.hourglass_yields) let_hourglass_yield(s);
   let_permeability_rise(s);
@@ -209,6 +210,7 @@ struct Shaking {
     record();
     return true;
   }
+  void use_threads(int threads) { omp_set_num_threads(threads); }
   void save(double seconds) {
     history.flush();
     run.seconds = seconds_before + seconds;
@@ -303,7 +305,8 @@ FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const F
                        "mean of xx and yy for PM4Sand, elastic plane strain for other laws", notes},
                       rest, static_cast<std::size_t>(run.output - 1))};
   shaking.show_states_before();
-  facts.seconds = shaking.seconds_before + run_to_end(shaking, paths.checkpoint, progress);
+  facts.seconds = shaking.seconds_before +
+                  run_to_end(shaking, std::max(1, threads), paths.checkpoint, progress);
   facts.stopped = shaking.stopped;
   facts.stopped_by_rule = shaking.stopped_by_rule;
   summarise(s, run, facts);

@@ -59,6 +59,7 @@ Solver make_solver(const Model& model, const Damping& damping) {
   each_law(s.layout, 0, n, [&]<class M>(std::size_t first, std::size_t last) {
     std::get<LawStates<M>>(t.laws).of.resize(last - first);
   });
+  s.stiffness_damping.assign(n, damping.stiffness);
   s.lambda.assign(n, 0.0);
   s.shear.assign(n, 0.0);
   s.strain.assign(3 * n, 0.0);

@@ -78,7 +78,7 @@ struct Solver {
   Layout layout;
   PressureSystem water;
   ShakingLaws::Tuple<LawConstants> laws;
-  Damping damping;
+  Damping damping;                                ///< as asked for; stiffness_damping may be less
   std::vector<double> hourglass_shear;            ///< shear modulus of the hourglass stiffness [Pa]
   std::vector<ShearStrength> hourglass_strength;  ///< of each material; what it may carry
   std::vector<double> hourglass_rest;  ///< hourglass stress at rest, which stays admissible [Pa]
@@ -87,8 +87,9 @@ struct Solver {
   std::vector<double> rest_pressure, rest_weight;
 
   State state;
-  double dt = kUnset;                 ///< present step [s]
-  std::vector<double> lambda, shear;  ///< present elastic constants of each element [Pa]
+  double dt = kUnset;                     ///< present step [s]
+  std::vector<double> lambda, shear;      ///< present elastic constants of each element [Pa]
+  std::vector<double> stiffness_damping;  ///< factor of the elastic stiffness of each element [s]
   Counters counters;
 
   // Within a step.

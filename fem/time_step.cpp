@@ -22,6 +22,25 @@ Eigen::Matrix3d compliance(const Solver& s, std::size_t e) {
   return r;
 }
 
+/// Square of the largest angular frequency of an element by itself [1/s2].
+double element_frequency(const Solver& s, std::size_t e) {
+  const Elements& g = s.layout.elements;
+  const Eigen::Matrix3d W = compliance(s, e);
+  Eigen::Matrix3d C = Eigen::Matrix3d::Zero();
+  C.topLeftCorner<2, 2>().setConstant(s.lambda[e]);
+  C(0, 0) += 2.0 * s.shear[e];
+  C(1, 1) += 2.0 * s.shear[e];
+  C(2, 2) = s.shear[e];
+  const double density = s.model.materials[s.layout.material[e]].density;
+  double gg = 0.0;
+  for (int i = 0; i < 4; ++i)
+    gg += g.gamma[i][e] * g.gamma[i][e] / (density * g.volume[e] * g.share[i][e]);
+  const double spread = hypot(g.hss[e] - g.htt[e], 2.0 * g.hst[e]);
+  const double hourglass = 0.5 * (g.hss[e] + g.htt[e] + spread) * s.hourglass_shear[e] * gg;
+  // On parallelograms the two kinds of motion are orthogonal; elsewhere nearly so.
+  return std::max(largest_eigenvalue(C * W), hourglass);
+}
+
 }  // namespace
 
 double largest_eigenvalue(const Eigen::Matrix3d& matrix) {
@@ -41,26 +60,18 @@ double largest_eigenvalue(const Eigen::Matrix3d& matrix) {
 }
 
 double soil_frequency(const Solver& s) {
-  const Elements& g = s.layout.elements;
   double worst = 0.0;
 #pragma omp parallel for schedule(static) reduction(max : worst)
-  for (std::size_t e = 0; e < g.size(); ++e) {
-    const Eigen::Matrix3d W = compliance(s, e);
-    Eigen::Matrix3d C = Eigen::Matrix3d::Zero();
-    C.topLeftCorner<2, 2>().setConstant(s.lambda[e]);
-    C(0, 0) += 2.0 * s.shear[e];
-    C(1, 1) += 2.0 * s.shear[e];
-    C(2, 2) = s.shear[e];
-    const double density = s.model.materials[s.layout.material[e]].density;
-    double gg = 0.0;
-    for (int i = 0; i < 4; ++i)
-      gg += g.gamma[i][e] * g.gamma[i][e] / (density * g.volume[e] * g.share[i][e]);
-    const double spread = hypot(g.hss[e] - g.htt[e], 2.0 * g.hst[e]);
-    const double hourglass = 0.5 * (g.hss[e] + g.htt[e] + spread) * s.hourglass_shear[e] * gg;
-    // On parallelograms the two kinds of motion are orthogonal; elsewhere nearly so.
-    worst = std::max(worst, std::max(largest_eigenvalue(C * W), hourglass));
-  }
+  for (std::size_t e = 0; e < s.layout.elements.size(); ++e)
+    worst = std::max(worst, element_frequency(s, e));
   return worst;
+}
+
+void limit_stiffness_damping(Solver& s, double largest_ratio) {
+  for (std::size_t e = 0; e < s.layout.elements.size(); ++e) {
+    const double most = 2.0 * largest_ratio / std::sqrt(element_frequency(s, e));
+    s.stiffness_damping[e] = std::min(s.stiffness_damping[e], most);
+  }
 }
 
 double water_frequency(Solver& s) {
@@ -118,6 +129,14 @@ double water_frequency(Solver& s) {
 double stable_step(const Frequencies& f, double beta) {
   const double a = 0.25 * (f.soil + f.water), b = 0.5 * beta * f.soil;
   return 2.0 / (b + std::sqrt(b * b + 4.0 * a));
+}
+
+double stable_step(const Solver& s, double water) {
+  double least = std::numeric_limits<double>::infinity();
+#pragma omp parallel for schedule(static) reduction(min : least)
+  for (std::size_t e = 0; e < s.layout.elements.size(); ++e)
+    least = std::min(least, stable_step({element_frequency(s, e), water}, s.stiffness_damping[e]));
+  return least;
 }
 
 }  // namespace flowslide::fem

@@ -19,6 +19,10 @@ double largest_eigenvalue(const Eigen::Matrix3d& matrix);
 /// largest of a single free element (Irons).
 double soil_frequency(const Solver& s);
 
+/// Bounds the stiffness damping of each element by a share of what is critical for its own fastest
+/// motion, with the elastic constants of the moment: beta = 2 D / w. docs/theory/fem.md, "Damping"
+void limit_stiffness_damping(Solver& s, double largest_ratio);
+
 /// Largest eigenvalue of M^-1 Q (S + alpha L)^-1 Q^T by power iteration, 5 % added. Uses the
 /// scratch of the solver; not during a step.
 double water_frequency(Solver& s);
@@ -26,5 +30,9 @@ double water_frequency(Solver& s);
 /// Largest stable step of central differences with lagged stiffness damping:
 /// (soil + water) dt^2/4 + beta soil dt/2 = 1.
 double stable_step(const Frequencies& f, double beta);
+
+/// The smallest of these over the elements, each with its own frequency and damping: elements that
+/// pass it one by one pass it together, since stiffness, damping and mass are sums over elements.
+double stable_step(const Solver& s, double water);
 
 }  // namespace flowslide::fem

@@ -1,8 +1,8 @@
 #pragma once
 #include "core/progress.hpp"
+#include "core/thread_pace.hpp"
 #include "model/checkpoint_file.hpp"
 
-#include <chrono>
 #include <concepts>
 #include <filesystem>
 #include <string>
@@ -25,42 +25,44 @@ concept LongRun = requires(R& run, const R& now, double seconds) {
   /// Flushes the history and then writes the checkpoint that counts what is in it; told the wall
   /// time since run_to_end began.
   run.save(seconds);
+  run.use_threads(1);  ///< for the steps to come, whose results do not depend on it
   run.history.finish();
   run.history.remove_parts();
 };
 
-/// Runs to the end; returns the wall time of the steps [s]. Throws Interrupted after save() when a
-/// stop is asked for, and what the run throws.
+/// Runs to the end with at most so many threads; returns the wall time of the steps [s]. Throws
+/// Interrupted after save() when a stop is asked for, and what the run throws.
 template <LongRun R>
-double run_to_end(R& run, const std::filesystem::path& checkpoint, const Progress& progress) {
-  using Clock = std::chrono::steady_clock;
-  const auto since = [](Clock::time_point t) {
-    return std::chrono::duration<double>(Clock::now() - t).count();
-  };
+double run_to_end(R& run, int threads, const std::filesystem::path& checkpoint,
+                  const Progress& progress) {
   const Clock::time_point start = Clock::now();
   Clock::time_point last_report = start, last_save = start;
   double interval = kCheckpointSeconds;
+  ThreadPace pace(threads);
+  int used = threads;
   while (!run.ended()) {
     const bool recorded = run.step();
+    if (const int best = pace.after_step(); best != used) run.use_threads(used = best);
     // Before the report, which fails where the terminal has gone.
     if (!run.ended() && progress.should_stop()) {
-      run.save(since(start));
+      run.save(seconds_since(start));
       throw Interrupted("interrupted at " + run.place() +
                         "; the same command continues from there");
     }
-    if (recorded || run.ended() || since(last_report) > kReportSeconds) {
+    if (recorded || run.ended() || seconds_since(last_report) > kReportSeconds) {
       progress.report(run.ended() ? Share(1.0) : run.share(), run.text());
       last_report = Clock::now();
     }
     if (run.ended()) break;
-    if (since(last_save) > interval) {
+    if (seconds_since(last_save) > interval) {
       const Clock::time_point before = Clock::now();
-      run.save(since(start));
-      interval = checkpoint_interval(since(before));
+      run.save(seconds_since(start));
+      interval = checkpoint_interval(seconds_since(before));
       last_save = Clock::now();
+      pace.leave_out_until_now();
     }
   }
-  const double seconds = since(start);
+  const double seconds = seconds_since(start);
   run.history.finish();
   remove_checkpoint(checkpoint);
   run.history.remove_parts();

@@ -149,6 +149,7 @@ struct Runout {
     if (due) store();
     return due;
   }
+  void use_threads(int threads) { mpm::use_threads(s, scratch, threads); }
   void save(double) {
     history.flush();
     mpm::write_checkpoint(checkpoint, s, run);
@@ -222,7 +223,7 @@ FlowFacts run_in(const ParticleSet& particles, const FlowConfig& config, const F
   if (!resume) runout.store();
   const std::int64_t first_updates = run.updates;
   FlowFacts facts;
-  facts.step_seconds = run_to_end(runout, paths.checkpoint, progress);
+  facts.step_seconds = run_to_end(runout, std::max(1, threads), paths.checkpoint, progress);
   facts.last = runout.last;
   facts.at_rest = runout.rests;
   facts.end_time = s.time;

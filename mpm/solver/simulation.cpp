@@ -50,6 +50,31 @@ void thin_debris(Simulation<Dim>& s, int threads) {
 /// What a tile costs beside its points, in points.
 constexpr double kTileWeight = 30.0;
 
+/// Every thread may meet the largest tile.
+template <int Dim>
+void size_tile_scratch(const Simulation<Dim>& s, StepScratch<Dim>& scratch) {
+  std::size_t most = 0;
+  for (const Tile<Dim>& t : s.tiling.tiles) most = std::max<std::size_t>(most, t.last - t.first);
+  most += Pack::lanes;
+  for (auto& t : scratch.tile) {
+    for (auto& g : t.gradient) g.resize(most);
+    for (auto& v : t.velocity) v.resize(most);
+    t.average.change.resize(most);
+    t.average.value.resize(most);
+    t.average.sum.resize(kSpans<Dim>);
+    t.average.mean.resize(kSpans<Dim>);
+  }
+}
+
+template <int Dim>
+void deal_tiles(const Simulation<Dim>& s, StepScratch<Dim>& scratch) {
+  for (Group& group : scratch.groups)
+    deal(group, [&](std::int32_t t) {
+      return double(s.tiling.tiles[t].last - s.tiling.tiles[t].first) + kTileWeight;
+    });
+  deal(scratch.asleep, [](std::int32_t) { return 1.0; });
+}
+
 /// Tiles whose window holds no contact node need not wait for the walls.
 template <int Dim, class Basis>
 void group_tiles(const Simulation<Dim>& s, StepScratch<Dim>& scratch) {
@@ -70,11 +95,7 @@ void group_tiles(const Simulation<Dim>& s, StepScratch<Dim>& scratch) {
         });
     scratch.groups[touches ? 1 : 0].tiles.push_back(static_cast<std::int32_t>(t));
   }
-  for (Group& group : scratch.groups)
-    deal(group, [&](std::int32_t t) {
-      return double(s.tiling.tiles[t].last - s.tiling.tiles[t].first) + kTileWeight;
-    });
-  deal(scratch.asleep, [](std::int32_t) { return 1.0; });
+  deal_tiles(s, scratch);
 }
 
 /// Lets tiles fall asleep and wakes others. A wave may be faster in what wakes.
@@ -198,17 +219,7 @@ void prepare(Simulation<Dim>& s, StepScratch<Dim>& scratch, bool rebin) {
     if (lightest != s.points.mass.end()) scratch.light = *lightest / power<Dim>(Basis::nodes);
   });
   if (rebin) s.contact.impulse.assign(s.contact.walls.size(), {});
-  std::size_t most = 0;
-  for (const Tile<Dim>& t : s.tiling.tiles) most = std::max<std::size_t>(most, t.last - t.first);
-  most += Pack::lanes;
-  for (auto& t : scratch.tile) {
-    for (auto& g : t.gradient) g.resize(most);
-    for (auto& v : t.velocity) v.resize(most);
-    t.average.change.resize(most);
-    t.average.value.resize(most);
-    t.average.sum.resize(kSpans<Dim>);
-    t.average.mean.resize(kSpans<Dim>);
-  }
+  size_tile_scratch(s, scratch);
   scratch.stress_work.resize(s.tiling.tiles.size());
   scratch.sleep_work.resize(scratch.asleep.tiles.empty() ? 0 : s.tiling.tiles.size());
   scratch.grid_work.resize(s.grid.blocks.size());
@@ -218,6 +229,13 @@ void prepare(Simulation<Dim>& s, StepScratch<Dim>& scratch, bool rebin) {
   if (fmpm) scratch.third.resize(s.grid.nodes.size());
   if (s.settings.update == Update::musl)
     for (auto& x : scratch.moved) x.resize(s.points.size());
+}
+
+template <int Dim>
+void use_threads(const Simulation<Dim>& s, StepScratch<Dim>& scratch, int threads) {
+  scratch.resize(threads);
+  size_tile_scratch(s, scratch);
+  deal_tiles(s, scratch);
 }
 
 template <int Dim>
@@ -257,6 +275,8 @@ template double stable_step<2>(const Simulation<2>&);
 template double stable_step<3>(const Simulation<3>&);
 template void prepare<2>(Simulation<2>&, StepScratch<2>&, bool);
 template void prepare<3>(Simulation<3>&, StepScratch<3>&, bool);
+template void use_threads<2>(const Simulation<2>&, StepScratch<2>&, int);
+template void use_threads<3>(const Simulation<3>&, StepScratch<3>&, int);
 template void advance<2>(Simulation<2>&, StepScratch<2>&);
 template void advance<3>(Simulation<3>&, StepScratch<3>&);
 

@@ -82,7 +82,10 @@ struct StepScratch {
   GridWork<Dim> contact_work;
   StaggeredArray<Node> second, third;  ///< as grid.nodes, where update or transfer need them
   std::array<StaggeredArray<double>, Dim> moved;  ///< new positions of musl [m]
-  explicit StepScratch(int threads) : tile(threads) {
+  explicit StepScratch(int threads) { resize(threads); }
+  /// For so many threads; the groups have to be dealt anew.
+  void resize(int threads) {
+    tile.resize(threads);
     for (Group& group : groups) group.shares.resize(threads);
     asleep.shares.resize(threads);
     binning.copy.resize(threads);
@@ -98,6 +101,11 @@ double stable_step(const Simulation<Dim>& s);
 /// (`rebin` false).
 template <int Dim>
 void prepare(Simulation<Dim>& s, StepScratch<Dim>& scratch, bool rebin);
+
+/// From the next step on; what the points gave to the grid for it stays. Results do not depend on
+/// the number.
+template <int Dim>
+void use_threads(const Simulation<Dim>& s, StepScratch<Dim>& scratch, int threads);
 
 /// One step; nothing in it allocates, throws or depends on the number of threads, unless the points
 /// are binned anew or accelerate so hard that it has to be shortened. A sweep over the tiles leaves

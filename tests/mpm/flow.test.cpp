@@ -64,10 +64,14 @@ bool same_bits(const Array& a, const Array& b) {
 
 }  // namespace
 
-TEST_CASE("One and two threads give the same bits", "[mpm]") {
+TEST_CASE("One and two threads, and threads that come and go, give the same bits", "[mpm]") {
   Run one(column(), flow_config(), 1), two(column(), flow_config(), 2);
   one.step(25);
-  two.step(25);
+  two.step(9);
+  for (const int threads : {1, 3, 2, 1}) {
+    use_threads(two.s, two.scratch, threads);
+    two.step(4);
+  }
   std::vector<std::vector<double>> a, b;
   const auto keep = [](std::vector<std::vector<double>>& list) {
     return [&](const auto& array) { list.emplace_back(array.begin(), array.end()); };

@@ -94,12 +94,13 @@ inline Solver at_rest(const Model& model, const FemConfig& c, double courant = 0
   Solver r = make_solver(model, {c.damping.mass.value(), c.damping.stiffness.value()});
   solve_gravity(r, {});
   refresh_moduli(r);
+  if (c.damping.largest_ratio) limit_stiffness_damping(r, *c.damping.largest_ratio);
   for (std::size_t e = 0; e < r.layout.elements.size(); ++e)
     r.water.alpha[e] =
         c.stabilisation.pressure * r.layout.elements.area[e] / (r.lambda[e] + 2.0 * r.shear[e]);
   const double water = water_frequency(r);
   start_motion(r);
-  r.dt = courant * stable_step({soil_frequency(r), water}, r.damping.stiffness);
+  r.dt = courant * stable_step(r, water);
   return r;
 }
 inline Solver at_rest(const SectionMesh& s, const FemConfig& c, double courant = 0.5) {

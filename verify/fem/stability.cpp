@@ -287,6 +287,7 @@ HostileOutcome hostile(std::mt19937& random) {
   c.sides.kind = SideKind::fixed;
   c.water->bulk_modulus = log_uniform(1e5, 1e10);
   c.damping.stiffness = log_uniform(1e-6, 1e-2);
+  if (steep > 0.45) c.damping.largest_ratio = 1.0;
   const double amplitude = 9.81 * log_uniform(0.01, 2.0), w = 2.0 * kPi * log_uniform(0.3, 20.0);
   const TemporaryFolder folder;
   const FemPaths paths{folder / "history.h5", folder / "checkpoint"};

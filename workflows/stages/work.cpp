@@ -18,9 +18,9 @@ constexpr double kParallel = 0.95;  ///< of the steps
 
 // Seconds of one thread of an AMD EPYC with AVX-512, and bytes.
 constexpr double kPerElement = 1e-5, kBytesPerElement = 4e3;
-constexpr double kPerElementStep = 2.6e-7, kBytesPerShakenElement = 30e3;
+constexpr double kPerElementStep = 2.1e-7, kBytesPerShakenElement = 30e3;
 constexpr double kPerElementFrame = 1e-6;
-constexpr double kPerSeededPoint = 1.5e-5, kPerPointStep = 7e-8, kPerPointStep3d = 1.8e-7;
+constexpr double kPerSeededPoint = 1.5e-5, kPerPointStep = 5e-8, kPerPointStep3d = 1.8e-7;
 constexpr double kBytesPerPoint = 1.5e3, kBytesPerPoint3d = 2e3;
 constexpr double kMotion = 0.1, kReport = 0.1, kFigures = 6.0, kReportBytes = 100e6;
 
