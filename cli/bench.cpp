@@ -10,12 +10,12 @@
 namespace flowslide::cli {
 namespace {
 
-struct Options {
+struct BenchOptions {
   std::vector<std::string> names;
   bool json = false, list = false, large = false;
 };
 
-int bench(const Options& options) {
+int bench(const BenchOptions& options) {
   const auto cases = select(all_benchmarks(), options.names, options.large || options.list);
   if (options.list) {
     for (const BenchCase& c : cases)
@@ -38,7 +38,7 @@ int bench(const Options& options) {
 }  // namespace
 
 void add_bench(CLI::App& app, Command& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BenchOptions>();
   CLI::App* command = app.add_subcommand("bench", "Measure speed, and error against cost");
   command->add_option("names", options->names, "groups or benchmarks [all]");
   command->add_flag("--json", options->json, "as JSON");

@@ -54,7 +54,7 @@ void flush_output() {
   if (std::ferror(stderr)) throw flowslide::FileError(fmt::format(kLost, "standard error"));
 }
 
-int run(int argc, char** argv) {
+int run_command_line(int argc, char** argv) {
   CLI::App app{"From an earthquake record to the runout of a liquefied tailings dam", "flowslide"};
   app.set_version_flag("--version", flowslide::program_version());
   app.require_subcommand(1);
@@ -92,7 +92,7 @@ int run(int argc, char** argv) {
 
 int run_and_report(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    return run_command_line(argc, argv);
   } catch (const flowslide::Error& e) {
     std::fflush(stdout);
     print_errors(e.what());

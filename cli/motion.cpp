@@ -14,14 +14,14 @@
 namespace flowslide::cli {
 namespace {
 
-struct Options {
+struct MotionOptions {
   std::vector<std::string> files;
   std::string pga, dt;  ///< with their units; empty: not given
   RecordFormat format;
   bool json = false;
 };
 
-int measure_records(Options options) {
+int measure_records(MotionOptions options) {
   std::optional<double> pga;
   if (!options.pga.empty()) pga = parse_quantity(options.pga, Dim::acceleration);
   if (!options.dt.empty()) options.format.dt = parse_quantity(options.dt, Dim::time);
@@ -42,7 +42,7 @@ int measure_records(Options options) {
 }  // namespace
 
 void add_motion(CLI::App& app, Command& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MotionOptions>();
   CLI::App* command = app.add_subcommand("motion", "Measure earthquake records");
   command->add_option("files", options->files, "AT2, or columns of text or CSV; plain or gzip")
       ->required();

@@ -14,12 +14,12 @@
 namespace flowslide::cli {
 namespace {
 
-struct Options {
+struct PlotOptions {
   std::string file, out, python;
   std::vector<std::string> overrides;
 };
 
-int plot(const Options& options) {
+int plot(const PlotOptions& options) {
   const Workflow workflow = load_workflow(options.file, options.overrides, all_stages());
   const SectionView view = view_section(workflow);
   if (!view.section)
@@ -40,7 +40,7 @@ int plot(const Options& options) {
 }  // namespace
 
 void add_plot(CLI::App& app, Command& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PlotOptions>();
   CLI::App* command = app.add_subcommand(
       "plot", "Draw section, mesh, water, windows and ground of a workflow, before it runs");
   command->add_option("file", options->file, "workflow, FILE.yaml")->required();

@@ -14,12 +14,12 @@
 namespace flowslide::cli {
 namespace {
 
-struct Options {
+struct PointOptions {
   std::string file, csv;
   std::vector<std::string> overrides;
 };
 
-int drive_point(const Options& options) {
+int drive_point(const PointOptions& options) {
   const YamlNode document = load_yaml(options.file, options.overrides);
   const auto config = read_settings<PointConfig>(document, "");
   try {
@@ -39,7 +39,7 @@ int drive_point(const Options& options) {
 }  // namespace
 
 void add_point(CLI::App& app, Command& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PointOptions>();
   CLI::App* command = app.add_subcommand("point", "Drive one material point along a path");
   command->add_option("file", options->file, "material, stress and path, YAML")->required();
   command->add_option("--csv", options->csv, "write every step to this file")->check(output_name());

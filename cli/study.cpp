@@ -136,7 +136,7 @@ std::optional<int> run_plan(const StudyArguments& args, const study::Plan& plan,
   return failed ? kRowsFailed : 0;
 }
 
-int run(const StudyArguments& args) {
+int run_study(const StudyArguments& args) {
   validate(args.executor == "local" || (args.jobs == 0 && args.threads == 0),
            "--jobs and --threads are for this machine (a task of Slurm has the processors that the "
            "study file gives it). Write 'slurm: {{cpus: ...}}' there.");
@@ -185,7 +185,7 @@ int table(const StudyArguments& args) {
   return 0;
 }
 
-int report(const StudyArguments& args) {
+int report_study(const StudyArguments& args) {
   const Opened study(args.out);
   write_results(study.folder, study.plan, study.progress);
   fmt::print("{}\n", (study.folder / "study.html").string());
@@ -212,7 +212,8 @@ CLI::App* add(CLI::App& study, Command& action, const std::string& name, const s
 
 void add_study_run(CLI::App& study, Command& action) {
   const auto args = std::make_shared<StudyArguments>();
-  CLI::App* command = add(study, action, "run", "Compute what is missing of a study", args, run);
+  CLI::App* command =
+      add(study, action, "run", "Compute what is missing of a study", args, run_study);
   command->add_option("file", args->file, "study, FILE.yaml")->required();
   command->add_option("--out", args->out, "folder of the study [runs/NAME]")->check(output_name());
   command->add_option("--jobs", args->jobs, "stages at once [one a processor]")
@@ -245,7 +246,7 @@ void add_study(CLI::App& app, Command& action) {
   const auto [status_command, status_args] = on_folder("status", "Tell how far a study is", status);
   status_command->add_flag("--json", status_args->json, "as JSON");
   on_folder("table", "Print the table of all rows as CSV", table);
-  on_folder("report", "Write tables, figures and page again", report);
+  on_folder("report", "Write tables, figures and page again", report_study);
   const auto [clean_command, clean_args] =
       on_folder("clean", "Take away results that no row needs", clean);
   clean_command->add_flag("--dry-run", clean_args->dry_run, "only tell how much");

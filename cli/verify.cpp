@@ -11,7 +11,7 @@
 namespace flowslide::cli {
 namespace {
 
-struct Options {
+struct VerifyOptions {
   std::vector<std::string> names;
   bool json = false, quick = false, list = false;
 };
@@ -23,7 +23,7 @@ void print_list(const std::vector<VerificationCase>& cases) {
     fmt::print("{:<26} {}{}\n", c.name, c.doc, c.quick ? " (quick)" : "");
 }
 
-int verify(const Options& options) {
+int verify(const VerifyOptions& options) {
   const auto cases = select(all_verification_cases(), options.names, options.quick);
   if (options.list) {
     print_list(cases);
@@ -51,7 +51,7 @@ int verify(const Options& options) {
 }  // namespace
 
 void add_verify(CLI::App& app, Command& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<VerifyOptions>();
   CLI::App* command =
       app.add_subcommand("verify", "Compare the program with known answers; exit 3 if one fails");
   command->add_option("names", options->names, "groups or cases [all]");

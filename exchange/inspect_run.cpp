@@ -56,7 +56,7 @@ double bytes_of_results(const fs::path& folder) {
 }
 
 std::vector<std::string> problems_of_result(const fs::path& result, Counted& counted) {
-  const RecordRead read = read_record(result);
+  const RecordRead read = read_stage_record(result);
   if (!read.record) return {read.problem};
   return verify(*read.record, result, [&counted] { counted.add(kBlockBytes); }).problems;
 }

@@ -53,7 +53,7 @@ std::vector<std::size_t> array_lengths(const Solver& s, const RunState& run) {
 }
 
 /// Above what counters that are reset every few steps can reach.
-constexpr int kMostSteps = 1000;
+constexpr int kMostCounted = 1000;
 
 }  // namespace
 
@@ -108,9 +108,9 @@ void check_progress(const std::filesystem::path& path, const Solver& s, const Ru
   const bool in_order = run.output >= 1 && s.state.time >= recorded * output_interval - slack &&
                         s.state.time <= std::min(end, (recorded + 1.0) * output_interval) + slack &&
                         s.state.step > 0 && s.dt > 0.0 && s.dt <= end + output_interval &&
-                        s.state.last_dt >= 0.0 && run.since >= 0 && run.since <= kMostSteps &&
-                        run.implicit.halvings >= 0 && run.implicit.halvings <= kMostSteps &&
-                        run.implicit.in_a_row >= 0 && run.implicit.in_a_row <= kMostSteps;
+                        s.state.last_dt >= 0.0 && run.since >= 0 && run.since <= kMostCounted &&
+                        run.implicit.halvings >= 0 && run.implicit.halvings <= kMostCounted &&
+                        run.implicit.in_a_row >= 0 && run.implicit.in_a_row <= kMostCounted;
   if (!in_order) refuse_checkpoint(path, "its times, steps or counts cannot be those of this run");
 }
 

@@ -106,7 +106,7 @@ struct FemConfig {
   std::optional<double> softening_length;   ///< over which the laws' strains hold as given [m]
   std::optional<double> end;                ///< [s]; the duration of the motion if left out
   std::optional<double> stop_displacement;  ///< against the base [m]
-  double output_interval = 0.25;            ///< [s]
+  double output_interval = 0.1;             ///< [s]
   double courant = 0.5;
 };
 

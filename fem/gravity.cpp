@@ -11,13 +11,6 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-double mean_pressure(const Solver& s, std::size_t e) {
-  if (!s.layout.saturated[e]) return 0.0;
-  double sum = 0.0;
-  for (const std::int32_t node : s.layout.nodes[e]) sum += s.state.pressure[node];
-  return 0.25 * sum;
-}
-
 /// Unknowns that gravity moves: all but those at the base. Others get `count`.
 std::vector<std::int32_t> free_unknowns(const Model& model, std::int32_t& count) {
   std::vector<std::int32_t> number(model.num_dofs + 1, 0);
@@ -39,7 +32,7 @@ Eigen::VectorXd elastic_displacements(const Solver& s) {
   const Elements& g = s.layout.elements;
   for (std::size_t e = 0; e < g.size(); ++e) {
     const auto K = stiffness(s, e, gravity_elasticity(s.model.materials[s.layout.material[e]]));
-    const double push = g.volume[e] * mean_pressure(s, e);
+    const double push = g.volume[e] * (s.layout.saturated[e] ? mean_pressure(s, e) : 0.0);
     for (int i = 0; i < 8; ++i) {
       const std::int32_t row = number[s.layout.dofs[e][i]];
       if (row < 0) continue;

@@ -9,12 +9,6 @@
 namespace flowslide::fem {
 namespace {
 
-double mean_pressure(const Solver& s, std::size_t e) {
-  double sum = 0.0;
-  for (const std::int32_t node : s.layout.nodes[e]) sum += s.state.pressure[node];
-  return 0.25 * sum;
-}
-
 bool rises(const Material& m) { return m.permeability_rise.factor != 1.0; }
 
 bool follows(const Solver& s, std::size_t e) {

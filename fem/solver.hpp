@@ -124,6 +124,13 @@ const typename M::Constants& constants_of(const Solver& s, std::int32_t material
   return std::get<LawConstants<M>>(s.laws).of[material];
 }
 
+/// Pore pressure in the middle of a solver element [Pa].
+inline double mean_pressure(const Solver& s, std::size_t e) {
+  double sum = 0.0;
+  for (const std::int32_t node : s.layout.nodes[e]) sum += s.state.pressure[node];
+  return 0.25 * sum;
+}
+
 /// Elastic constants of the stage of gravity.
 Elasticity gravity_elasticity(const Material& m);
 

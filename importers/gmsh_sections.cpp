@@ -12,8 +12,6 @@
 namespace flowslide {
 namespace {
 
-constexpr double kLargestExactInteger = 9007199254740992.0;  // 2^53
-
 /// Lines of a .msh file as numbers, with their place for messages.
 class Lines {
  public:

@@ -16,8 +16,6 @@
 namespace flowslide {
 namespace {
 
-constexpr double kLargestExactInteger = 9007199254740992.0;  // 2^53
-
 struct Table {
   std::string file;
   std::vector<std::vector<double>> rows;

@@ -7,6 +7,9 @@
 
 namespace flowslide {
 
+/// Up to which every whole number is a double: 2^53.
+inline constexpr double kLargestExactInteger = 9007199254740992.0;
+
 /// Reads a text file line by line, plain or gzip, in constant memory; lines have up to 64 MiB and
 /// end in LF, CRLF or CR; a UTF-8 byte order mark is skipped. What is not
 /// text (HDF5, XML, archives, UTF-16, binary recorders, NUL bytes) is refused with an explanation.

@@ -15,7 +15,6 @@
 namespace flowslide {
 namespace {
 
-constexpr std::size_t kDigits = 64;  ///< of a checksum
 constexpr const char* kStartAgain =
     "delete the checkpoint to start the stage again from its beginning";
 
@@ -79,7 +78,7 @@ void AppendFile::reopen(std::size_t keep) {
   if (file_ < 0) fail(path_, "cannot be opened for writing", errno);
   struct stat about {};
   if (::fstat(file_, &about) != 0) fail(path_, "cannot be opened for writing", errno);
-  const std::size_t step = record_bytes_ + kDigits;
+  const std::size_t step = record_bytes_ + kSha256Digits;
   if (!S_ISREG(about.st_mode) || keep > static_cast<std::size_t>(about.st_size) / step)
     throw FileError(fmt::format(
         "'{}' has {} bytes, but the checkpoint needs {} records of {} bytes (the file is older "
@@ -102,16 +101,16 @@ std::string AppendFile::checksum(std::size_t index, const void* record) const {
 
 void AppendFile::append(const void* record) {
   write_whole(path_, file_, record, record_bytes_);
-  write_whole(path_, file_, checksum(size_, record).data(), kDigits);
+  write_whole(path_, file_, checksum(size_, record).data(), kSha256Digits);
   ++size_;
 }
 
 void AppendFile::read(std::size_t index, void* record) const {
   FLOWSLIDE_EXPECT(index < size_);
-  const std::size_t offset = index * (record_bytes_ + kDigits);
-  std::string stored(kDigits, ' ');
+  const std::size_t offset = index * (record_bytes_ + kSha256Digits);
+  std::string stored(kSha256Digits, ' ');
   read_whole(path_, file_, offset, record, record_bytes_);
-  read_whole(path_, file_, offset + record_bytes_, stored.data(), kDigits);
+  read_whole(path_, file_, offset + record_bytes_, stored.data(), kSha256Digits);
   if (stored != checksum(index, record))
     throw FileError(
         fmt::format("'{}': record {} is not what was written (its checksum does not fit its bytes: "

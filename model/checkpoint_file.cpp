@@ -5,8 +5,6 @@
 namespace flowslide {
 namespace {
 
-constexpr std::size_t kDigits = 64;  ///< of the checksum
-
 std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.parent_path().empty() ? "." : path.parent_path();
 }
@@ -58,8 +56,8 @@ CheckpointReader::CheckpointReader(std::filesystem::path path, std::uint64_t fie
   std::error_code error;
   const std::uint64_t size = std::filesystem::file_size(path_, error);
   if (error || !in_) fail_to_read();
-  if (size < kDigits + sizeof fields) refuse("it is cut off");
-  left_ = size - kDigits;
+  if (size < kSha256Digits + sizeof fields) refuse("it is cut off");
+  left_ = size - kSha256Digits;
 
   Sha256 digest;
   std::vector<char> block(std::min<std::uint64_t>(left_, 1 << 20));
@@ -69,8 +67,8 @@ CheckpointReader::CheckpointReader(std::filesystem::path path, std::uint64_t fie
     digest.add(block.data(), n);
     left -= n;
   }
-  std::string checksum(kDigits, ' ');
-  in_.read(checksum.data(), kDigits);
+  std::string checksum(kSha256Digits, ' ');
+  in_.read(checksum.data(), kSha256Digits);
   if (!in_) fail_to_read();
   if (checksum != digest.hex())
     refuse("its checksum does not fit its bytes: it is damaged, cut off, or of an older program");

@@ -10,7 +10,7 @@
 namespace flowslide {
 namespace {
 
-constexpr int kLevel = 1, kWindowBits = 15, kMemoryLevel = 8;
+constexpr int kDeflateLevel = 1, kWindowBits = 15, kMemoryLevel = 8;
 constexpr std::size_t kChecksumBytes = 4;
 
 /// The first bytes of all values, then their second ones, and so on.
@@ -34,7 +34,7 @@ std::uint64_t folded(std::uint64_t sum) {
 struct ChunkFilters::Deflate {
   z_stream stream{};
   Deflate() {
-    if (deflateInit2(&stream, kLevel, Z_DEFLATED, kWindowBits, kMemoryLevel, Z_RLE) != Z_OK)
+    if (deflateInit2(&stream, kDeflateLevel, Z_DEFLATED, kWindowBits, kMemoryLevel, Z_RLE) != Z_OK)
       throw std::bad_alloc();  // the only cause that zlib leaves
   }
   ~Deflate() { deflateEnd(&stream); }

@@ -2,6 +2,7 @@
 
 #include "core/check.hpp"
 #include "model/field_store.hpp"
+#include "model/history_arrays.hpp"
 #include "model/mesh_store.hpp"
 
 #include <algorithm>
@@ -9,33 +10,10 @@
 namespace flowslide {
 namespace {
 
-constexpr std::string_view kKind = "fem_history";
-constexpr int kFormat = 2, kOldest = 2;  // 1 had no materials
+constexpr std::string_view kFemHistory = "fem_history";
+constexpr int kFemHistoryFormat = 2, kOldestFemHistory = 2;  // 1 had no materials
 
 constexpr FieldLabel kTime{.unit = "s", .convention = "from the start of the motion"};
-constexpr FieldLabel kDisplacement{.unit = "m",
-                                   .convention = "nodes, from the reference coordinates"};
-constexpr FieldLabel kVelocity{.unit = "m/s", .convention = "nodes, absolute", .nan = Nan::allowed};
-constexpr FieldLabel kPorePressure{.unit = "Pa", .convention = "nodes, compression positive"};
-constexpr FieldLabel kStress{
-    .unit = "Pa", .convention = "element centres, effective, tension positive, xx yy zz xy"};
-constexpr FieldLabel kStrain{
-    .unit = "-",
-    .convention =
-        "element centres, from the reference, extension positive, engineering shear, "
-        "xx yy zz xy",
-    .nan = Nan::allowed};
-
-/// The one list of arrays of a frame: f(name, label, array, is_nodal).
-template <class Frame, class F>
-void visit_arrays(Frame& frame, F&& f) {
-  f("displacement", kDisplacement, frame.displacement, true);
-  f("velocity", kVelocity, frame.velocity, true);
-  f("pore_pressure", kPorePressure, frame.pore_pressure, true);
-  f("stress", kStress, frame.stress, false);
-  f("strain", kStrain, frame.strain, false);
-}
-
 void write_materials(FieldWriter& out, std::vector<HistoryMaterial> materials) {
   std::sort(materials.begin(), materials.end(),
             [](const auto& a, const auto& b) { return a.tag < b.tag; });
@@ -85,7 +63,7 @@ struct FemHistoryWriter::Impl {
   bool has_gravity = false;
 
   void check_sizes(const FemFrame& frame) const {
-    visit_arrays(
+    visit_frame(
         frame, [this, &frame](const char* name, const FieldLabel&, const auto& array, bool nodal) {
           validate(array.size() == (nodal ? num_nodes : num_elements),
                    "frame at t = {} s: {} has {} values (the mesh has {} {})", frame.time, name,
@@ -99,7 +77,7 @@ FemHistoryWriter::FemHistoryWriter(const std::filesystem::path& path, const Quad
                                    const HistoryOrigin& origin) {
   check(mesh);
   check(mesh, materials);
-  impl_.reset(new Impl{.out = FieldWriter(path, kKind, kFormat),
+  impl_.reset(new Impl{.out = FieldWriter(path, kFemHistory, kFemHistoryFormat),
                        .path = path,
                        .num_nodes = mesh.num_nodes(),
                        .num_elements = mesh.num_elements(),
@@ -118,7 +96,7 @@ void FemHistoryWriter::set_gravity(const FemFrame& frame) {
            "'{}': the gravity frame is set once, before the first frame", impl_->path.string());
   impl_->check_sizes(frame);
   impl_->out.write("gravity/time", std::vector<double>{frame.time}, kTime);
-  visit_arrays(frame, [this](const char* name, const FieldLabel& label, const auto& array, bool) {
+  visit_frame(frame, [this](const char* name, const FieldLabel& label, const auto& array, bool) {
     impl_->out.write(std::string("gravity/") + name, array, label);
   });
   impl_->has_gravity = true;
@@ -132,7 +110,7 @@ void FemHistoryWriter::append(const FemFrame& frame) {
            "frame {} is at t = {} s (times must increase, the frame before is at {} s)",
            impl_->times.size(), frame.time, impl_->times.empty() ? kUnset : impl_->times.back());
   impl_->check_sizes(frame);
-  visit_arrays(frame, [this](const char* name, const FieldLabel& label, const auto& array, bool) {
+  visit_frame(frame, [this](const char* name, const FieldLabel& label, const auto& array, bool) {
     impl_->out.append(std::string("frames/") + name, array, label);
   });
   impl_->times.push_back(frame.time);
@@ -155,7 +133,7 @@ struct FemHistory::Impl {
 };
 
 FemHistory::FemHistory(const std::filesystem::path& path)
-    : impl_(new Impl{.in = FieldReader(path, kKind, kFormat, kOldest),
+    : impl_(new Impl{.in = FieldReader(path, kFemHistory, kFemHistoryFormat, kOldestFemHistory),
                      .mesh = {},
                      .materials = {},
                      .origin = {},
@@ -168,8 +146,8 @@ FemHistory::FemHistory(const std::filesystem::path& path)
   impl_->origin.sigma_zz_rule = in.read_texts("origin/sigma_zz_rule", 1)[0];
   impl_->origin.notes = in.read_texts("origin/notes");
   impl_->gravity.time = in.read_one<double>("gravity/time");
-  visit_arrays(impl_->gravity, [this, &in](const char* name, const FieldLabel& label, auto& array,
-                                           bool nodal) {
+  visit_frame(impl_->gravity, [this, &in](const char* name, const FieldLabel& label, auto& array,
+                                          bool nodal) {
     using T = typename std::decay_t<decltype(array)>::value_type;
     array = in.read<T>(std::string("gravity/") + name,
                        nodal ? impl_->mesh.num_nodes() : impl_->mesh.num_elements(), label.nan);
@@ -180,7 +158,7 @@ FemHistory::FemHistory(const std::filesystem::path& path)
              "'{}': frame {} is at t = {} s, after {} s (times must increase)", path.string(), i,
              impl_->times[i], impl_->times[i - 1]);
   if (impl_->times.empty()) return;
-  visit_arrays(impl_->gravity, [this, &in](const char* name, auto&, auto&, bool) {
+  visit_frame(impl_->gravity, [this, &in](const char* name, auto&, auto&, bool) {
     const std::size_t rows = in.rows(std::string("frames/") + name);
     validate(rows == impl_->times.size(), "'{}': dataset 'frames/{}' has {} frames (expected {})",
              in.path().string(), name, rows, impl_->times.size());
@@ -202,7 +180,7 @@ FemFrame FemHistory::frame(std::size_t index) const {
            impl_->in.path().string(), index, impl_->times.size());
   FemFrame frame;
   frame.time = impl_->times[index];
-  visit_arrays(
+  visit_frame(
       frame, [this, index](const char* name, const FieldLabel& label, auto& array, bool nodal) {
         using T = typename std::decay_t<decltype(array)>::value_type;
         array = impl_->in.read_row<T>(std::string("frames/") + name, index,

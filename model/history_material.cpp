@@ -1,5 +1,7 @@
 #include "model/history_material.hpp"
 
+#include "model/names_of.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -7,16 +9,9 @@
 #include <set>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace flowslide {
 namespace {
-
-std::string names_of(const std::vector<HistoryMaterial>& materials) {
-  std::vector<std::string> names;
-  for (const HistoryMaterial& m : materials) names.push_back(m.name);
-  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
-}
 
 /// The material with the tag that a text is; null if it is none.
 const HistoryMaterial* of_tag(const std::vector<HistoryMaterial>& materials,

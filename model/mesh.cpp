@@ -12,7 +12,7 @@ double cross(Vec2 a, Vec2 b, Vec2 c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-void check_lengths(const QuadMesh& mesh) {
+void check_mesh_lengths(const QuadMesh& mesh) {
   validate(!mesh.nodes.empty() && !mesh.elements.empty(),
            "the mesh has {} nodes and {} elements (nothing to compute on); check which files were "
            "read",
@@ -55,7 +55,7 @@ Vec2 centroid(const std::array<Vec2, 4>& quad) {
 }
 
 void check(const QuadMesh& mesh) {
-  check_lengths(mesh);
+  check_mesh_lengths(mesh);
   check_unique(mesh.node_tags, "node");
   check_unique(mesh.element_tags, "element");
   for (std::size_t i = 0; i < mesh.num_nodes(); ++i)

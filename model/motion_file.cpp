@@ -5,14 +5,14 @@
 namespace flowslide {
 namespace {
 
-constexpr std::string_view kKind = "motion";
-constexpr int kFormat = 1;
+constexpr std::string_view kMotion = "motion";
+constexpr int kMotionFormat = 1;
 
 }  // namespace
 
 void write_motion_file(const std::filesystem::path& path, const GroundMotion& motion) {
   check(motion);
-  FieldWriter out(path, kKind, kFormat);
+  FieldWriter out(path, kMotion, kMotionFormat);
   out.write("dt", std::vector<double>{motion.dt}, {.unit = "s"});
   out.write("acceleration", motion.acceleration,
             {.unit = "m/s2", .convention = "horizontal, to the right; sample i is at i dt"});
@@ -21,7 +21,7 @@ void write_motion_file(const std::filesystem::path& path, const GroundMotion& mo
 }
 
 GroundMotion read_motion_file(const std::filesystem::path& path) {
-  const FieldReader in(path, kKind, kFormat);
+  const FieldReader in(path, kMotion, kMotionFormat);
   GroundMotion motion;
   motion.dt = in.read_one<double>("dt");
   motion.acceleration = in.read<double>("acceleration");

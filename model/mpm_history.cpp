@@ -15,12 +15,13 @@
 namespace flowslide {
 namespace {
 
-constexpr std::string_view kKind = "mpm_history";
-constexpr int kFormat = 3, kOldest = 3;  // 2 had no toe, no rule of rest, no fronts by mass
+constexpr std::string_view kMpmHistory = "mpm_history";
+constexpr int kMpmHistoryFormat = 3,
+              kOldestMpmHistory = 3;  // 2 had no toe, no rule of rest, no fronts by mass
 
 /// The one list of the arrays of a frame: f(name, label, array).
 template <class Frame, class F>
-void visit_arrays(Frame& frame, F&& f) {
+void visit_point_arrays(Frame& frame, F&& f) {
   f("position", FieldLabel{.unit = "m"}, frame.position);
   f("velocity", FieldLabel{.unit = "m/s"}, frame.velocity);
   f("stress", FieldLabel{.unit = "Pa", .convention = "total, tension positive, xx yy zz xy yz zx"},
@@ -93,7 +94,7 @@ struct MpmHistoryWriter::Impl {
     const double* from = record.data();
     MpmFrame frame;
     frame.time = *from++;
-    visit_arrays(frame, [this, &from](auto, auto&&, auto& array) {
+    visit_point_arrays(frame, [this, &from](auto, auto&&, auto& array) {
       from = take_row(from, initial.size(), array);
     });
     return frame;
@@ -114,7 +115,7 @@ void MpmHistoryWriter::append(const MpmFrame& frame) {
            "frame {} is at t = {} s (times must increase, the frame before is "
            "at {} s)",
            impl_->frames.size(), frame.time, impl_->last_time);
-  visit_arrays(
+  visit_point_arrays(
       frame, [this, n, &frame](const char* name, const FieldLabel& label, const auto& array) {
         validate(array.size() == n, "frame at t = {} s: {} has {} values (there are {} particles)",
                  frame.time, name, array.size(), n);
@@ -129,7 +130,7 @@ void MpmHistoryWriter::append(const MpmFrame& frame) {
       });
   double* to = impl_->record.data();
   *to++ = frame.time;
-  visit_arrays(frame, [&to](auto, auto&&, const auto& array) { to = put_row(array, to); });
+  visit_point_arrays(frame, [&to](auto, auto&&, const auto& array) { to = put_row(array, to); });
   impl_->frames.append(impl_->record.data());
   impl_->last_time = frame.time;
 }
@@ -151,7 +152,7 @@ void MpmHistoryWriter::flush() {
 
 void MpmHistoryWriter::finish() {
   const std::filesystem::path joined = impl_->folder / "joined.h5";
-  FieldWriter out(joined, kKind, kFormat);
+  FieldWriter out(joined, kMpmHistory, kMpmHistoryFormat);
   write_particles(out, impl_->initial);
   visit_rule(impl_->rest, [&out](const char* name, const char* unit, double value) {
     out.write(std::string("rest/") + name, std::vector<double>{value}, {.unit = unit});
@@ -160,7 +161,7 @@ void MpmHistoryWriter::finish() {
   for (std::size_t i = 0; i < impl_->frames.size(); ++i) {
     const MpmFrame frame = impl_->frame(i);
     times.push_back(frame.time);
-    visit_arrays(frame, [&out](const char* name, const FieldLabel& label, const auto& array) {
+    visit_point_arrays(frame, [&out](const char* name, const FieldLabel& label, const auto& array) {
       out.append(std::string("frames/") + name, array, label);
     });
   }
@@ -187,7 +188,7 @@ struct MpmHistory::Impl {
 };
 
 MpmHistory::MpmHistory(const std::filesystem::path& path)
-    : impl_(new Impl{.in = FieldReader(path, kKind, kFormat, kOldest),
+    : impl_(new Impl{.in = FieldReader(path, kMpmHistory, kMpmHistoryFormat, kOldestMpmHistory),
                      .initial = {},
                      .rest = {},
                      .times = {},
@@ -223,7 +224,7 @@ MpmFrame MpmHistory::read(std::size_t index, bool motion_only) const {
            index, num_frames());
   MpmFrame frame;
   frame.time = impl_->times[index];
-  visit_arrays(frame, [&](const char* name, const FieldLabel& label, auto& array) {
+  visit_point_arrays(frame, [&](const char* name, const FieldLabel& label, auto& array) {
     using T = typename std::decay_t<decltype(array)>::value_type;
     const std::string_view field = name;
     if (motion_only && field != "position" && field != "velocity" && field != "strength") return;

@@ -11,8 +11,8 @@
 namespace flowslide {
 namespace {
 
-constexpr std::string_view kKind = "particles";
-constexpr int kFormat = 2, kOldest = 2;  // 1 had no toe
+constexpr std::string_view kParticles = "particles";
+constexpr int kParticlesFormat = 2, kOldestParticles = 2;  // 1 had no toe
 
 std::string_view convention(std::string_view field) {
   if (field == "stress") return "total, tension positive, components xx yy zz xy yz zx";
@@ -31,7 +31,7 @@ bool finite(const std::array<T, N>& values) {
   return std::all_of(values.begin(), values.end(), [](T x) { return std::isfinite(x); });
 }
 
-void check_materials(const ParticleSet& p) {
+void check_particle_materials(const ParticleSet& p) {
   std::unordered_set<std::string> names;
   for (const MaterialSpec& m : p.materials) {
     validate(!m.name.empty() && !m.law.empty(),
@@ -83,7 +83,7 @@ void check(const ParticleSet& p) {
              name);
   }
   validate(!std::isinf(p.toe), "the toe of the particles is infinite (no runout could be counted)");
-  check_materials(p);
+  check_particle_materials(p);
   check_ids(p.id);
   for (std::size_t i = 0; i < n; ++i) {
     const std::int64_t id = p.id[i];
@@ -179,13 +179,13 @@ ParticleSet read_particles(const FieldReader& in) {
 
 void write_particles(const std::filesystem::path& path, const ParticleSet& p) {
   check(p);
-  FieldWriter out(path, kKind, kFormat);
+  FieldWriter out(path, kParticles, kParticlesFormat);
   write_particles(out, p);
   out.finish();
 }
 
 ParticleSet read_particles(const std::filesystem::path& path) {
-  return read_particles(FieldReader(path, kKind, kFormat, kOldest));
+  return read_particles(FieldReader(path, kParticles, kParticlesFormat, kOldestParticles));
 }
 
 }  // namespace flowslide

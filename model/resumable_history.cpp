@@ -4,6 +4,7 @@
 #include "core/files.hpp"
 #include "model/append_file.hpp"
 #include "model/frame_row.hpp"
+#include "model/history_arrays.hpp"
 #include "model/parts_folder.hpp"
 
 #include <algorithm>
@@ -12,20 +13,10 @@
 namespace flowslide {
 namespace {
 
-/// The one list of what a record of a frame holds after its time: f(name, array, is_nodal).
-template <class Frame, class F>
-void visit_arrays(Frame& frame, F&& f) {
-  f("displacement", frame.displacement, true);
-  f("velocity", frame.velocity, true);
-  f("pore_pressure", frame.pore_pressure, true);
-  f("stress", frame.stress, false);
-  f("strain", frame.strain, false);
-}
-
 std::size_t record_doubles(const QuadMesh& mesh) {
   std::size_t doubles = 1;
   const FemFrame widths;
-  visit_arrays(widths, [&](const char*, const auto& array, bool nodal) {
+  visit_frame(widths, [&](auto, auto&&, const auto& array, bool nodal) {
     doubles += (nodal ? mesh.num_nodes() : mesh.num_elements()) * width_of(array);
   });
   return doubles;
@@ -70,7 +61,7 @@ ResumableHistoryWriter::ResumableHistoryWriter(const std::filesystem::path& path
 ResumableHistoryWriter::~ResumableHistoryWriter() = default;
 
 void ResumableHistoryWriter::append(const FemFrame& frame) {
-  visit_arrays(frame, [&](const char* name, const auto& array, bool nodal) {
+  visit_frame(frame, [&](const char* name, auto&&, const auto& array, bool nodal) {
     validate(array.size() == impl_->rows(nodal),
              "frame at t = {} s: {} has {} values (expected {})", frame.time, name, array.size(),
              impl_->rows(nodal));
@@ -87,7 +78,7 @@ void ResumableHistoryWriter::append(const FemFrame& frame) {
   });
   double* to = impl_->record.data();
   *to++ = frame.time;
-  visit_arrays(frame, [&](const char*, const auto& array, bool) { to = put_row(array, to); });
+  visit_frame(frame, [&](auto, auto&&, const auto& array, bool) { to = put_row(array, to); });
   impl_->frames.append(impl_->record.data());
 }
 
@@ -96,7 +87,7 @@ FemFrame ResumableHistoryWriter::frame(std::size_t index) {
   const double* from = impl_->record.data();
   FemFrame frame;
   frame.time = *from++;
-  visit_arrays(frame, [&](const char*, auto& array, bool nodal) {
+  visit_frame(frame, [&](auto, auto&&, auto& array, bool nodal) {
     from = take_row(from, impl_->rows(nodal), array);
   });
   return frame;

@@ -3,6 +3,7 @@
 #include "core/check.hpp"
 #include "model/field_store.hpp"
 #include "model/mesh_store.hpp"
+#include "model/names_of.hpp"
 
 #include <algorithm>
 #include <set>
@@ -12,15 +13,8 @@
 namespace flowslide {
 namespace {
 
-constexpr std::string_view kKind = "mesh";
-constexpr int kFormat = 1;
-
-template <class T>
-std::string names_of(const std::vector<T>& items) {
-  std::string text;
-  for (const T& item : items) text += (text.empty() ? "" : ", ") + item.name;
-  return text.empty() ? "none" : text;
-}
+constexpr std::string_view kMesh = "mesh";
+constexpr int kMeshFormat = 1;
 
 template <class T>
 void check_names(const std::vector<T>& items, const char* what) {
@@ -31,7 +25,7 @@ void check_names(const std::vector<T>& items, const char* what) {
              item.name);
 }
 
-void check_materials(const SectionMesh& section) {
+void check_material_tags(const SectionMesh& section) {
   std::set<std::int32_t> named;
   for (const MaterialName& m : section.materials)
     validate(named.insert(m.tag).second,
@@ -82,13 +76,13 @@ void check(const SectionMesh& section) {
   check(section.mesh);
   check_names(section.materials, "material");
   check_names(section.sets, "set");
-  check_materials(section);
+  check_material_tags(section);
   check_sets(section);
 }
 
 void write_section_mesh(const std::filesystem::path& path, const SectionMesh& section) {
   check(section);
-  FieldWriter out(path, kKind, kFormat);
+  FieldWriter out(path, kMesh, kMeshFormat);
   write_mesh(out, section.mesh);
   std::vector<std::string> material_names, set_names;
   std::vector<std::int32_t> tags, edge_set;
@@ -115,7 +109,7 @@ void write_section_mesh(const std::filesystem::path& path, const SectionMesh& se
 }
 
 SectionMesh read_section_mesh(const std::filesystem::path& path) {
-  const FieldReader in(path, kKind, kFormat);
+  const FieldReader in(path, kMesh, kMeshFormat);
   SectionMesh section;
   section.mesh = read_mesh(in);
   const std::vector<std::string> names = in.read_texts("materials/name");

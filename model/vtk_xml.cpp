@@ -15,7 +15,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "the files say that they are");
 
 constexpr std::size_t kBlock = 1 << 15;  // bytes compressed at a time, as VTK has it
-constexpr int kLevel = 5;                // of zlib's 9, as VTK has it
+constexpr int kBlockLevel = 5;           // of zlib's 9, as VTK has it
 
 void add_number(std::string& to, std::uint64_t number) {
   to.append(reinterpret_cast<const char*>(&number), sizeof number);
@@ -33,7 +33,7 @@ void add_compressed(std::string& to, const void* bytes, std::size_t size) {
   for (std::size_t begin = 0; begin < size; begin += kBlock) {
     uLongf length = block.size();
     const auto* from = static_cast<const Bytef*>(bytes) + begin;
-    if (compress2(block.data(), &length, from, std::min(kBlock, size - begin), kLevel) != Z_OK)
+    if (compress2(block.data(), &length, from, std::min(kBlock, size - begin), kBlockLevel) != Z_OK)
       throw std::bad_alloc();  // the only cause that zlib leaves with a buffer of this size
     add_number(sizes, length);
     content.append(reinterpret_cast<const char*>(block.data()), length);

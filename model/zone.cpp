@@ -6,8 +6,8 @@
 namespace flowslide {
 namespace {
 
-constexpr std::string_view kKind = "zone";
-constexpr int kFormat = 2;
+constexpr std::string_view kZone = "zone";
+constexpr int kZoneFormat = 2;
 
 /// Scalars over time of a zone file: f(name, unit, array).
 template <class History, class F>
@@ -38,7 +38,7 @@ void visit_depth_tables(History& h, F&& f) {
   f("history/depth_interpolated", h.depth_interpolated);
 }
 
-void check_lengths(const std::filesystem::path& path, const LiquefactionZone& zone) {
+void check_zone_lengths(const std::filesystem::path& path, const LiquefactionZone& zone) {
   const auto same = [&path](const char* name, std::size_t found, const char* as, std::size_t n) {
     validate(found == n, "'{}': {} has {} values, {} has {} (they must be equal)", path.string(),
              name, found, as, n);
@@ -63,8 +63,8 @@ void check_lengths(const std::filesystem::path& path, const LiquefactionZone& zo
 }  // namespace
 
 void write_zone(const std::filesystem::path& path, const LiquefactionZone& zone) {
-  check_lengths(path, zone);
-  FieldWriter out(path, kKind, kFormat);
+  check_zone_lengths(path, zone);
+  FieldWriter out(path, kZone, kZoneFormat);
   out.write("transfer_time", std::vector<double>{zone.transfer_time},
             {.unit = "s", .convention = "from the start of the motion"});
   out.write("transfer_frame", std::vector<std::int32_t>{zone.transfer_frame},
@@ -111,7 +111,7 @@ void write_zone(const std::filesystem::path& path, const LiquefactionZone& zone)
 }
 
 LiquefactionZone read_zone(const std::filesystem::path& path) {
-  const FieldReader in(path, kKind, kFormat);
+  const FieldReader in(path, kZone, kZoneFormat);
   LiquefactionZone zone;
   zone.transfer_time = in.read_one<double>("transfer_time");
   zone.transfer_frame = in.read_one<std::int32_t>("transfer_frame");

@@ -31,14 +31,15 @@ std::size_t smallest_factor(std::size_t n) {
 
 /// Transform of in[0], in[stride], ... (n of them) into out[0 ... n - 1], from the transforms of
 /// every p-th sample (Cooley and Tukey). `w` are the roots of unity of the whole length.
-void transform(const Complex* in, Complex* out, std::size_t n, std::size_t stride,
-               const std::vector<Complex>& w) {
+void fourier_transform(const Complex* in, Complex* out, std::size_t n, std::size_t stride,
+                       const std::vector<Complex>& w) {
   if (n == 1) {
     *out = *in;
     return;
   }
   const std::size_t p = smallest_factor(n), m = n / p;
-  for (std::size_t r = 0; r < p; ++r) transform(in + r * stride, out + r * m, m, stride * p, w);
+  for (std::size_t r = 0; r < p; ++r)
+    fourier_transform(in + r * stride, out + r * m, m, stride * p, w);
   std::vector<Complex> part(p);
   for (std::size_t k = 0; k < m; ++k) {
     for (std::size_t r = 0; r < p; ++r) part[r] = times(out[r * m + k], w[r * k * stride]);
@@ -60,7 +61,7 @@ void transform(const Complex* in, Complex* out, std::size_t n, std::size_t strid
 std::vector<Complex> half_spectrum(std::span<const double> x) {
   const std::vector<Complex> in(x.begin(), x.end());
   std::vector<Complex> out(x.size());
-  if (!x.empty()) transform(in.data(), out.data(), x.size(), 1, roots_of_unity(x.size()));
+  if (!x.empty()) fourier_transform(in.data(), out.data(), x.size(), 1, roots_of_unity(x.size()));
   out.resize(x.size() / 2 + 1);
   return out;
 }
@@ -70,7 +71,7 @@ std::vector<double> samples_of(std::span<const Complex> half, std::size_t n) {
   // The conjugate of the transform of the conjugates is n times the inverse.
   std::vector<Complex> in(n), out(n);
   for (std::size_t k = 0; k < n; ++k) in[k] = k < half.size() ? std::conj(half[k]) : half[n - k];
-  transform(in.data(), out.data(), n, 1, roots_of_unity(n));
+  fourier_transform(in.data(), out.data(), n, 1, roots_of_unity(n));
   std::vector<double> x(n);
   for (std::size_t i = 0; i < n; ++i) x[i] = out[i].real() / static_cast<double>(n);
   return x;

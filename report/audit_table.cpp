@@ -39,7 +39,7 @@ bool is_table(const Json& value) {
          std::all_of(value.begin(), value.end(), [](const Json& row) { return row.is_object(); });
 }
 
-std::string table(const Json& rows) {
+std::string table_of_objects(const Json& rows) {
   std::vector<std::string> keys;
   for (const Json& row : rows)
     for (const auto& [key, unused] : row.items())
@@ -66,7 +66,7 @@ void collect(const std::string& prefix, const Json& object, std::string& rows,
   for (const auto& [key, value] : object.items()) {
     const std::string name = prefix.empty() ? heading(key) : prefix + ", " + heading(key);
     if (is_table(value))
-      tables += fmt::format("**{}**\n\n{}", name, table(value));
+      tables += fmt::format("**{}**\n\n{}", name, table_of_objects(value));
     else if (value.is_object())
       collect(name, value, rows, tables);
     else

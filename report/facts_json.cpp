@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json movements(const std::vector<Movement>& list) {
+Json movements_json(const std::vector<Movement>& list) {
   Json out = Json::array();
   for (const Movement& m : list)
     out.push_back({{"name", m.name},
@@ -89,8 +89,8 @@ std::string to_json(const ReportFacts& f) {
   j["mass_error"] = f.mass_error;
   j["energy_error"] = f.energy_error;
   j["momentum_error"] = f.momentum_error;
-  j["materials"] = movements(f.materials);
-  j["regions"] = movements(f.regions);
+  j["materials"] = movements_json(f.materials);
+  j["regions"] = movements_json(f.regions);
   Json zone = Json::array();
   for (const auto& [below, share] : f.zone_shares)
     zone.push_back(

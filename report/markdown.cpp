@@ -11,7 +11,7 @@ namespace {
 
 using Rows = std::vector<std::pair<std::string, std::string>>;
 
-std::string table(std::string_view left, std::string_view right, const Rows& rows) {
+std::string pair_table(std::string_view left, std::string_view right, const Rows& rows) {
   std::string out = fmt::format("| {} | {} |\n|---|---|\n", left, right);
   for (const auto& [name, value] : rows)
     out += fmt::format("| {} | {} |\n", cell(name), cell(value));
@@ -32,7 +32,8 @@ std::string_view verdict(const Movement& m) {
   return m.failed_share < most ? "failed in part" : "failed";
 }
 
-std::string movements(const std::vector<Movement>& list, std::string_view kind, double moved) {
+std::string movements_table(const std::vector<Movement>& list, std::string_view kind,
+                            double moved) {
   std::string out = fmt::format(
       "| {} | | moved > {:g} m (share of mass) | mean displacement (m) | largest (m) | volume "
       "(m³/m) | points |\n|---|---|---:|---:|---:|---:|---:|\n",
@@ -82,7 +83,7 @@ std::string key_numbers(const ReportFacts& f, const ReportConfig& c) {
        {"energy error (residual / work of gravity)", fmt::format("{:.2e}", f.energy_error)},
        {"momentum error (residual / impulse of gravity)",
         fmt::format("{:.2e}", f.momentum_error)}});
-  return table("quantity", "value", rows);
+  return pair_table("quantity", "value", rows);
 }
 
 std::string figures(const DrawnFigures& drawn) {
@@ -125,7 +126,7 @@ std::string liquefaction(const ReportInputs& in, const ReportFacts& f) {
       add_depths(fmt::format(", before the slide ({:.1f} s)", zone.onset_time),
                  zone.window_depth_before_slide);
   }
-  if (!rows.empty()) out += table("window", "largest depth of liquefaction", rows);
+  if (!rows.empty()) out += pair_table("window", "largest depth of liquefaction", rows);
   if (!zone.notes.empty()) out += "Notes on the zone:\n\n" + list(zone.notes);
   out += fmt::format("Shaking read from: {}. Out-of-plane stress: {}.\n\n",
                      cell(in.history.origin().program), cell(in.history.origin().sigma_zz_rule));
@@ -169,8 +170,8 @@ std::vector<std::string> all_warnings(const ReportInputs& in, const ReportFacts&
 
 std::vector<ReportSection> report_sections(const ReportInputs& in, const ReportConfig& c,
                                            const ReportFacts& f, const FinalState& end) {
-  std::string moved = movements(f.materials, "material", c.moved);
-  if (!f.regions.empty()) moved += movements(f.regions, "region", c.moved);
+  std::string moved = movements_table(f.materials, "material", c.moved);
+  if (!f.regions.empty()) moved += movements_table(f.regions, "region", c.moved);
   std::vector<ReportSection> sections{
       {"How sure, why, and what would change it", told_judgement(in, c, f, end)},
       {"Key numbers", key_numbers(f, c)},
@@ -183,7 +184,7 @@ std::vector<ReportSection> report_sections(const ReportInputs& in, const ReportC
       {"Definitions", definitions(c, in.flow.rest())}};
   Rows run = in.provenance;
   if (!in.date.empty()) run.insert(run.begin(), {"date of this report", in.date});
-  if (!run.empty()) sections.push_back({"What was run", table("item", "value", run)});
+  if (!run.empty()) sections.push_back({"What was run", pair_table("item", "value", run)});
   return sections;
 }
 

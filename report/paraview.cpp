@@ -9,13 +9,13 @@
 namespace flowslide {
 namespace {
 
-using Series = std::vector<std::pair<double, std::filesystem::path>>;
+using TimedFiles = std::vector<std::pair<double, std::filesystem::path>>;
 
 void write_flow(const std::filesystem::path& out, const MpmHistory& flow,
                 const Progress& progress) {
   const std::filesystem::path folder = out / "flow";
   make_folders(folder);
-  Series series;
+  TimedFiles series;
   for (std::size_t k = 0; k < flow.num_frames(); ++k) {
     if (progress.should_stop())
       throw Interrupted("interrupted while files for ParaView were written");
@@ -47,7 +47,7 @@ void write_zone(const std::filesystem::path& out, const FemHistory& history,
                              VtkField{.name = "sigma_v0 [Pa]", .values = zone.sigma_v0},
                              VtkField{.name = "material", .values = material}};
   write_vtu(out / "zone.vtu", mesh, frame, nodal, elemental);
-  write_pvd(out / "zone.pvd", Series{{zone.transfer_time, out / "zone.vtu"}});
+  write_pvd(out / "zone.pvd", TimedFiles{{zone.transfer_time, out / "zone.vtu"}});
 }
 
 }  // namespace

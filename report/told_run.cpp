@@ -10,9 +10,9 @@
 namespace flowslide {
 namespace {
 
-using Rows = std::vector<std::vector<std::string>>;
+using TableRows = std::vector<std::vector<std::string>>;
 
-std::string table(const std::vector<std::string>& head, const Rows& rows) {
+std::string told_table(const std::vector<std::string>& head, const TableRows& rows) {
   std::string out = "|", rule = "|";
   for (const std::string& text : head) {
     out += " " + cell(text) + " |";
@@ -54,13 +54,13 @@ std::string soils_table(const ToldStage& stage, std::string_view prefix) {
   if (soils.names.empty()) return "";
   std::vector<std::string> head{"parameter"};
   head.insert(head.end(), soils.names.begin(), soils.names.end());
-  Rows rows;
+  TableRows rows;
   for (const auto& [path, values] : soils.rows) {
     std::vector<std::string>& row = rows.emplace_back();
     row.push_back(path);
     for (const std::string& value : values) row.push_back(value.empty() ? "-" : readable(value));
   }
-  return table(head, rows);
+  return told_table(head, rows);
 }
 
 std::string told_motion(const ReportInputs& in) {
@@ -83,12 +83,12 @@ std::string told_motion(const ReportInputs& in) {
       Measure{"motion_masi_m_s", "modified acceleration spectrum intensity MASI", "m/s", 1.0},
       Measure{"motion_duration_s", "length of the record", "s", 1.0},
       Measure{"motion_dt_s", "time step of the record", "s", 1.0}};
-  Rows rows;
+  TableRows rows;
   for (const Measure& m : measures) {
     const double value = number_in(stage->facts, m.key);
     if (is_set(value)) rows.push_back({m.name, fmt::format("{:.3g} {}", value * m.scale, m.unit)});
   }
-  std::string out = table({"measure of the motion", "value"}, rows);
+  std::string out = told_table({"measure of the motion", "value"}, rows);
   if (in.motion && !in.motion->origin.empty())
     out += fmt::format("Origin: {}.\n\n", cell(in.motion->origin));
   return out;
@@ -100,7 +100,7 @@ std::string told_mesh(const ReportInputs& in) {
   for (std::size_t e = 0; e < mesh.num_elements(); ++e)
     size.push_back(std::sqrt(area(corners(mesh, mesh.nodes, e))));
   std::sort(size.begin(), size.end());
-  Rows rows{{"elements, nodes", fmt::format("{}, {}", mesh.num_elements(), mesh.num_nodes())}};
+  TableRows rows{{"elements, nodes", fmt::format("{}, {}", mesh.num_elements(), mesh.num_nodes())}};
   if (!size.empty())
     rows.push_back({"size of an element (root of its area): smallest, median, largest",
                     fmt::format("{:.3g} m, {:.3g} m, {:.3g} m", size.front(), size[size.size() / 2],
@@ -109,17 +109,17 @@ std::string told_mesh(const ReportInputs& in) {
   if (times.size() > 1)
     rows.push_back({"stored states of the shaking",
                     fmt::format("{}, until {:.4g} s", times.size(), times.back())});
-  return table({"mesh of the shaking", "value"}, rows);
+  return told_table({"mesh of the shaking", "value"}, rows);
 }
 
 std::string told_grid(const ReportInputs& in) {
   const ParticleSet& p = in.flow.initial();
   double volume = 0.0;
   for (const double v : p.volume) volume += v;
-  Rows rows{{"material points", fmt::format("{}", p.size())},
-            {"mean distance of points",
-             fmt::format("{:.3g} m", std::sqrt(volume / static_cast<double>(p.size())))},
-            {"stored states of the flow", fmt::format("{}", in.flow.num_frames())}};
+  TableRows rows{{"material points", fmt::format("{}", p.size())},
+                 {"mean distance of points",
+                  fmt::format("{:.3g} m", std::sqrt(volume / static_cast<double>(p.size())))},
+                 {"stored states of the flow", fmt::format("{}", in.flow.num_frames())}};
   if (const ToldStage* flow = find_stage(in.stages, "mpm.run"))
     for (const auto& [key, name] : {std::pair{"cell", "cell size"},
                                     {"toe", "toe, x"},
@@ -131,17 +131,17 @@ std::string told_grid(const ReportInputs& in) {
                                     {"damping", "damping"}})
       if (const std::string value = find_setting(flow->settings, key); !value.empty())
         rows.push_back({name, value});
-  return table({"grid of the flow", "value"}, rows);
+  return told_table({"grid of the flow", "value"}, rows);
 }
 
 std::string told_strength(const ReportInputs& in) {
   std::string out;
   if (const ToldStage* stage = find_stage(in.stages, "transfer.zone")) {
-    Rows rows;
+    TableRows rows;
     for (const auto& row : rows_of(find_setting(stage->settings, "strength.table")))
       if (row.size() == 2) rows.push_back({kilopascal(row[0]), kilopascal(row[1])});
     if (!rows.empty())
-      out += table({"initial vertical effective stress", "residual strength S_r"}, rows);
+      out += told_table({"initial vertical effective stress", "residual strength S_r"}, rows);
   }
   if (const ToldStage* map = find_stage(in.stages, "transfer.map"))
     if (const std::string ratio = find_setting(map->settings, "c_soft_ratio"); !ratio.empty())
@@ -242,7 +242,7 @@ std::string why(const ReportInputs& in, const ReportFacts& f, const FinalState& 
 }
 
 std::string what_changes(const ReportInputs& in) {
-  Rows rows;
+  TableRows rows;
   const Strength s = strength_of(in);
   if (s.area > 0.0)
     rows.push_back(
@@ -269,7 +269,7 @@ std::string what_changes(const ReportInputs& in) {
   add(flow, "ground.friction", "friction of the ground", "lower");
   add(flow, "cell", "cell size", "not known beforehand: halve it");
   return "**What would change it**\n\n" +
-         table({"assumption", "in this run", "runs out farther if"}, rows);
+         told_table({"assumption", "in this run", "runs out farther if"}, rows);
 }
 
 }  // namespace
@@ -317,9 +317,9 @@ std::string told_inputs(const ReportInputs& in) {
 }
 
 std::string told_settings(const ToldStage& stage) {
-  Rows rows;
+  TableRows rows;
   for (const Setting& s : read_settings_text(stage.settings)) rows.push_back({s.path, s.value});
-  return table({"setting", "value"}, rows);
+  return told_table({"setting", "value"}, rows);
 }
 
 }  // namespace flowslide

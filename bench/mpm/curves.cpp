@@ -1,4 +1,5 @@
 #include "bench/mpm/bandwidth.hpp"
+#include "bench/mpm/named_transfer.hpp"
 #include "bench/mpm/speed.hpp"
 #include "core/check.hpp"
 #include "core/conventions.hpp"
@@ -43,14 +44,9 @@ ParticleSet bar(double spacing) {
   return p;
 }
 
-struct Line {
-  std::string_view name;
-  Transfer transfer;
-};
-
 /// After one period the velocity is that of the start. Nothing where the numerics fail before.
 std::optional<Measurement> point_of_line(BasisKind basis, std::string_view basis_name,
-                                         const Line& line, double cell) {
+                                         const NamedTransfer& line, double cell) {
   const ParticleSet p = bar(0.5 * cell);
   FlowConfig c;
   c.cell = cell;
@@ -102,15 +98,15 @@ std::optional<Measurement> point_of_line(BasisKind basis, std::string_view basis
 }  // namespace
 
 std::vector<Measurement> work_precision() {
-  constexpr Line lines[] = {{"apic", Transfer::apic},   {"tpic", Transfer::tpic},
-                            {"aflip", Transfer::aflip}, {"flip_0.99", Transfer::flip},
-                            {"pic", Transfer::pic},     {"fmpm_2", Transfer::fmpm}};
+  constexpr NamedTransfer lines[] = {{"apic", Transfer::apic},   {"tpic", Transfer::tpic},
+                                     {"aflip", Transfer::aflip}, {"flip_0.99", Transfer::flip},
+                                     {"pic", Transfer::pic},     {"fmpm_2", Transfer::fmpm}};
   std::vector<Measurement> all;
   for (const BasisKind basis : {BasisKind::linear, BasisKind::gimp, BasisKind::quadratic,
                                 BasisKind::mls, BasisKind::cubic}) {
     const std::string_view name =
         visit_basis(basis, []<class B>(B) { return std::string_view(B::name); });
-    for (const Line& line : lines)
+    for (const NamedTransfer& line : lines)
       for (const double cell : {1.0, 0.5, 0.25, 0.125})
         if (auto point = point_of_line(basis, name, line, cell)) all.push_back(*std::move(point));
   }

@@ -1,3 +1,4 @@
+#include "bench/mpm/named_transfer.hpp"
 #include "bench/mpm/speed.hpp"
 #include "verify/mpm/dry_columns.hpp"
 
@@ -8,19 +9,15 @@ namespace {
 
 constexpr int kFine = 64;  ///< cells of the reference
 
-struct Line {
-  std::string_view name;
-  Transfer transfer;
-};
-
 }  // namespace
 
 std::vector<Measurement> front_precision() {
   const double exact = collapse(sand(1.0), kFine).front;
   std::vector<Measurement> all;
-  for (const Line& line :
-       {Line{"aflip", Transfer::aflip}, Line{"apic", Transfer::apic}, Line{"tpic", Transfer::tpic},
-        Line{"flip_0.99", Transfer::flip}, Line{"fmpm_2", Transfer::fmpm}}) {
+  for (const NamedTransfer& line :
+       {NamedTransfer{"aflip", Transfer::aflip}, NamedTransfer{"apic", Transfer::apic},
+        NamedTransfer{"tpic", Transfer::tpic}, NamedTransfer{"flip_0.99", Transfer::flip},
+        NamedTransfer{"fmpm_2", Transfer::fmpm}}) {
     for (const int cells : {8, 16, 32}) {
       DryColumn column = sand(1.0);
       column.transfer = line.transfer;

@@ -118,7 +118,7 @@ void place_steep(Placing<3>& place, const HalfSteps& table, const WallPoint<3>& 
 }
 
 /// Single nodes below the ground that catch what has slipped through.
-void place_net(Placing<3>& place, const HalfSteps& table, const WallPoint<3>& like) {
+void place_terrain_net(Placing<3>& place, const HalfSteps& table, const WallPoint<3>& like) {
   constexpr int B = kBlockWidth<3>;
   for (const auto& block : place.grid.blocks) {
     for (int n = 0; n < kBlockNodes<3>; ++n) {
@@ -167,7 +167,7 @@ void place_terrain(Placing<3>& place, const HeightField& field, double friction,
   }
   place_steep<Basis>(place, table, like, 0, in_y);
   place_steep<Basis>(place, table, like, 1, in_x);
-  place_net(place, table, like);
+  place_terrain_net(place, table, like);
 }
 
 #define FLOWSLIDE_PLACE(BASIS) \

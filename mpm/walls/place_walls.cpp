@@ -92,7 +92,7 @@ class PiecePlacer {
 
 /// Wall points at all nodes in a layer below the ground: what slips through is caught there.
 template <int Dim>
-void place_net(Placing<Dim>& place, const Ground& ground) {
+void place_ground_net(Placing<Dim>& place, const Ground& ground) {
   constexpr int B = kBlockWidth<Dim>, up = Dim - 1;
   const Grid<Dim>& grid = place.grid;
   for (const auto& block : grid.blocks) {
@@ -121,7 +121,7 @@ template <class Basis, int Dim>
 void place_polyline(Placing<Dim>& place, const Ground& ground, const Rollers& rollers) {
   PiecePlacer<Basis, Dim> placer(place, ground, rollers);
   for (const Piece& piece : pieces(ground)) placer.add(piece);
-  place_net(place, ground);
+  place_ground_net(place, ground);
 }
 
 /// Wall points of an upright wall at a coordinate [m] of the axis; without it, if it is infinite.

@@ -18,7 +18,7 @@ namespace flowslide::study {
 namespace {
 
 /// On top of the style of a single run's page: charts drawn as SVG, and wide tables.
-constexpr std::string_view kStyle = R"(
+constexpr std::string_view kPageStyle = R"(
 .figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,26rem),1fr));gap:1rem;
 margin:0 0 1rem}figure{margin:0;border:1px solid var(--rule);padding:.6rem}
 figcaption{font-size:.86rem;color:var(--soft);padding:.3rem .2rem 0}
@@ -68,7 +68,7 @@ class Writer {
         "<!doctype html><html lang='en'><head><meta charset='utf-8'><meta name='viewport' "
         "content='width=device-width,initial-scale=1'><title>{0}</title><style>{1}{2}</style>"
         "</head><body><a class='skip' href='#judgement'>To the answer</a><header><h1>{0}</h1>",
-        xml_text(plan_.name), page_style(), kStyle);
+        xml_text(plan_.name), page_style(), kPageStyle);
     std::string meta = xml_text(program_version());
     if (!about_.sessions.empty())
       meta = fmt::format("{} &middot; {}", xml_text(about_.sessions.back().began.substr(0, 10)),

@@ -7,7 +7,7 @@
 namespace flowslide::study {
 namespace {
 
-constexpr std::string_view kStyle =
+constexpr std::string_view kChartStyle =
     "<style>text{font:12px system-ui,sans-serif;fill:#444}.head{font-weight:600;fill:#222}"
     ".axis{stroke:#888}.grid{stroke:#e6e6e6}.bar{stroke:#888}.fit{stroke:#c2410c;fill:none;"
     "stroke-width:2}.curve{stroke:#1d4ed8;fill:none;stroke-width:2}.band{fill:#1d4ed822;stroke:none}"
@@ -62,7 +62,7 @@ std::string Svg::alone(std::string_view title) const {
   return fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' width='{0}' height='{1}' viewBox='0 0 {0} {1}' "
       "role='img' aria-label='{2}'>{3}{4}</svg>\n",
-      pixels(width_), pixels(height_), xml_text(title), kStyle, body_);
+      pixels(width_), pixels(height_), xml_text(title), kChartStyle, body_);
 }
 
 }  // namespace flowslide::study

@@ -64,7 +64,7 @@ std::vector<std::size_t> read_stages(const Workflow& workflow, const WorkflowSta
 
 /// Are the files of a result those of its record? `files` takes them.
 bool is_whole(const StageRecord& from, const fs::path& folder, std::vector<HashedFile>& files) {
-  const RecordRead read = read_record(folder);
+  const RecordRead read = read_stage_record(folder);
   if (!read.record || read.record->key != from.key) return false;
   Verified verified = verify(*read.record, folder);
   files = std::move(verified.files);

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 namespace flowslide::study {
 namespace {
 
-constexpr int kSchema = 1;
+constexpr int kSessionSchema = 1;
 constexpr std::string_view kFolder = "sessions";
 
 double clock_seconds() {
@@ -81,7 +81,7 @@ void SessionLog::stage_made() {
   record_.wall_seconds = clock_seconds() - began_;
   record_.processor_seconds = processor_time() - used_before_;
   make_folders(path_.parent_path());
-  write_file(path_, seal({{"schema", kSchema},
+  write_file(path_, seal({{"schema", kSessionSchema},
                           {"began", record_.began},
                           {"program", record_.program},
                           {"processor", record_.processor},

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 namespace flowslide::study {
 namespace {
 
-constexpr int kSchema = 1;
+constexpr int kStoreSchema = 1;
 constexpr std::string_view kGone = ".gone";
 
 /// Two processes may clear the same away, and what stays goes with the next sweep.
@@ -25,7 +25,7 @@ void remove_waste(const fs::path& path) {
 
 std::optional<Json> read(const fs::path& path) {
   auto file = read_sealed(path).json;
-  if (!file || !file->contains("schema") || (*file)["schema"] != kSchema) return std::nullopt;
+  if (!file || !file->contains("schema") || (*file)["schema"] != kStoreSchema) return std::nullopt;
   return file;
 }
 
@@ -59,7 +59,7 @@ std::optional<Finished> Store::finished(const std::string& stage, const std::str
 void Store::write(const Finished& finished) const {
   const StageRecord& record = finished.record;
   write_file(beside(record.stage, record.key, ".json"),
-             seal({{"schema", kSchema},
+             seal({{"schema", kStoreSchema},
                    {"record", to_json(record)},
                    {"facts", Json::parse(record.facts)},
                    {"peak_memory_bytes", finished.peak_memory}}));
@@ -83,7 +83,7 @@ std::optional<Failure> Store::failure(const std::string& stage, const std::strin
 void Store::write(const std::string& stage, const std::string& key, const Failure& failure) const {
   const fs::path path = beside(stage, key, ".failed.json");
   make_folders(path.parent_path());
-  write_file(path, seal({{"schema", kSchema},
+  write_file(path, seal({{"schema", kStoreSchema},
                          {"code", failure.code},
                          {"text", failure.text},
                          {"program", failure.program},

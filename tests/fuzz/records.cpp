@@ -48,11 +48,11 @@ void stage_record(Input input) {
   if (record_text.ends_with('\n')) record_text.pop_back();  // that of the line before the section
   file("stage.json", sealed(record_text));
   accepts([&] {
-    auto record = read_record(folder().path()).record;
+    auto record = read_stage_record(folder().path()).record;
     if (!record) return;
     record->files.clear();  // write_record adds facts.json
     write_record(folder().path(), *record);
-    if (!read_record(folder().path()).record) std::abort();
+    if (!read_stage_record(folder().path()).record) std::abort();
     Decision decision;
     (void)result_json({}, {{*record, decision}}, 0.0);
   });

@@ -79,7 +79,7 @@ TEST_CASE("records survive the disk", "[workflows]") {
   scratch.write("p.h5", "p");
   StageRecord record = sample_record();
   write_record(scratch.path(), record);
-  const auto [back, problem] = read_record(scratch.path());
+  const auto [back, problem] = read_stage_record(scratch.path());
   REQUIRE(back);
   CHECK(problem.empty());
   CHECK(back->settings == record.settings);
@@ -106,27 +106,27 @@ TEST_CASE("every bit of a record counts", "[workflows]") {
       std::string text = whole;
       text[i] = static_cast<char>(text[i] ^ 1);
       scratch.write(name, text);
-      const RecordRead read = read_record(scratch.path());
+      const RecordRead read = read_stage_record(scratch.path());
       REQUIRE_FALSE(read.record);
       REQUIRE_THAT(read.problem, Catch::Contains(name));
     }
     for (const std::size_t size : {std::size_t{0}, whole.size() / 2, whole.size() - 1}) {
       scratch.write(name, whole.substr(0, size));
-      CHECK_FALSE(read_record(scratch.path()).record);
+      CHECK_FALSE(read_stage_record(scratch.path()).record);
     }
     scratch.write(name, whole);
   }
-  CHECK(read_record(scratch.path()).record);
+  CHECK(read_stage_record(scratch.path()).record);
 }
 
 TEST_CASE("records of other programs are refused with the reason", "[workflows]") {
   const Scratch scratch;
-  CHECK(read_record(scratch / "none").problem.empty());
-  CHECK_THAT(read_record(scratch.path()).problem, Catch::Contains("missing"));
+  CHECK(read_stage_record(scratch / "none").problem.empty());
+  CHECK_THAT(read_stage_record(scratch.path()).problem, Catch::Contains("missing"));
   scratch.write("stage.json", "{\n  \"schema\": 1\n}\n");
-  CHECK_THAT(read_record(scratch.path()).problem, Catch::Contains("earlier program"));
+  CHECK_THAT(read_stage_record(scratch.path()).problem, Catch::Contains("earlier program"));
   scratch.write("stage.json", seal({{"schema", 2}, {"stage", 3}}));
-  CHECK_THAT(read_record(scratch.path()).problem, Catch::Contains("cannot be used"));
+  CHECK_THAT(read_stage_record(scratch.path()).problem, Catch::Contains("cannot be used"));
 }
 
 TEST_CASE("nested text is refused before anything calls itself at every level", "[workflows]") {

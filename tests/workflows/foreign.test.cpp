@@ -62,7 +62,7 @@ TEST_CASE("a run.lock cannot name what lies outside", "[workflows]") {
 TEST_CASE("a record cannot name what lies outside", "[workflows]") {
   Attack a;
   const fs::path folder = a.folder(2);
-  StageRecord record = *read_record(folder).record;
+  StageRecord record = *read_stage_record(folder).record;
   std::erase_if(record.files, [](const FileRecord& f) { return f.name == kFactsFile; });
   SECTION("publish") { record.publish = {"../../../../victim/data.pvd"}; }
   SECTION("give") { record.give = {"../victim/data.pvd"}; }

@@ -182,7 +182,7 @@ TEST_CASE("a result of another build is used, and the build is named", "[workflo
   Bench bench;
   bench.run();
   const auto folder = bench.folder(1);
-  auto record = *read_record(folder).record;
+  auto record = *read_stage_record(folder).record;
   record.program = "flowslide 0.0.1 (abc1234)";
   std::erase_if(record.files, [](const FileRecord& f) { return f.name == kFactsFile; });
   write_record(folder, record);

@@ -9,29 +9,29 @@
 namespace flowslide::fem {
 namespace {
 
-constexpr double kHeight = 10.0, kLoad = 100e3;
-constexpr double kYoung = 10e6, kPoisson = 0.25;
-constexpr double kModulus = kYoung * (1 - kPoisson) / ((1 + kPoisson) * (1 - 2 * kPoisson));
-constexpr double kPermeability = 1e-3;
-constexpr double kUnitWeight = 9810.0;
+constexpr double kLayerHeight = 10.0, kLayerLoad = 100e3;
+constexpr double kLayerYoung = 10e6, kPoisson = 0.25;
+constexpr double kModulus = kLayerYoung * (1 - kPoisson) / ((1 + kPoisson) * (1 - 2 * kPoisson));
+constexpr double kLayerPermeability = 1e-3;
 
 /// Top drained, load on the surface in place of weight.
-Solver column(int elements, double stabilisation) {
-  FemConfig c = config(elastic_soil(kYoung, kPoisson), kHeight);
-  c.materials["soil"].permeability = {kPermeability, kPermeability};
+Solver layer(int elements, double stabilisation) {
+  FemConfig c = config(elastic_soil(kLayerYoung, kPoisson), kLayerHeight);
+  c.materials["soil"].permeability = {kLayerPermeability, kLayerPermeability};
   c.damping.mass = 0.0;
   c.damping.stiffness = 1e-4;
   c.stabilisation.pressure = stabilisation;
-  const double h = kHeight / elements;
-  return at_rest(section({.columns = 1, .rows = elements, .width = h, .height = kHeight}), c, 0.9);
+  const double h = kLayerHeight / elements;
+  return at_rest(section({.columns = 1, .rows = elements, .width = h, .height = kLayerHeight}), c,
+                 0.9);
 }
 
-void press(Solver& s, double load) {
+void press_layer(Solver& s, double load) {
   // two nodes of a surface as wide as an element
   const double width = s.model.mesh.nodes[1][0];
   std::fill(s.model.load.begin(), s.model.load.end(), 0.0);
   for (std::size_t i = 0; i < s.model.mesh.num_nodes(); ++i)
-    if (s.model.mesh.nodes[i][1] > kHeight - 1e-9)
+    if (s.model.mesh.nodes[i][1] > kLayerHeight - 1e-9)
       s.model.load[s.model.dof[i][1]] -= 0.5 * width * load;
 }
 
@@ -57,19 +57,20 @@ constexpr std::array<double, 4> kTimes{0.05, 0.1, 0.2, 0.5};
 
 /// Load over 0.2 s, some thousandths of the time of consolidation, counted from the middle.
 std::array<Consolidation, 4> consolidate(int elements) {
-  Solver s = column(elements, 0.25);
+  Solver s = layer(elements, 0.25);
   const double ramp = 0.2;
-  const double per_time = kHeight * kHeight * kUnitWeight / (kPermeability * kModulus * kShare);
-  const double settled = kLoad * kHeight / kModulus;
+  const double per_time =
+      kLayerHeight * kLayerHeight * kUnitWeight / (kLayerPermeability * kModulus * kShare);
+  const double settled = kLayerLoad * kLayerHeight / kModulus;
   std::array<Consolidation, 4> r;
   const std::int32_t top = s.model.dof.back()[1];
   std::size_t at = 0;
   while (at < kTimes.size()) {
-    press(s, kLoad * std::min(1.0, s.state.time / ramp));
+    press_layer(s, kLayerLoad * std::min(1.0, s.state.time / ramp));
     advance(s, {});
     if (s.state.time < kTimes[at] * per_time + 0.5 * ramp) continue;
     r[at++] = {-s.state.displacement[top] / settled,
-               (s.state.pressure[0] - kUnitWeight * kHeight) / kLoad};
+               (s.state.pressure[0] - kUnitWeight * kLayerHeight) / kLayerLoad};
   }
   return r;
 }
@@ -98,18 +99,18 @@ std::vector<Check> verify_first_step(std::string_view name) {
   CheckList checks(name);
   // a hundredth of the time in which pressure crosses the first of 20 elements
   for (const double stabilisation : {0.25, 0.0}) {
-    Solver s = column(20, stabilisation);
+    Solver s = layer(20, stabilisation);
     for (double& m : s.water.mobility_y) m *= 1e-3;
     const double ramp = 0.5;
     while (s.state.time < 0.6) {
-      press(s, kLoad * std::min(1.0, s.state.time / ramp));
+      press_layer(s, kLayerLoad * std::min(1.0, s.state.time / ramp));
       advance(s, {});
     }
     double largest = 0.0;
     for (std::size_t i = 0; i < s.state.pressure.size(); ++i)
       largest = std::max(
-          largest,
-          (s.state.pressure[i] - kUnitWeight * (kHeight - s.model.mesh.nodes[i][1])) / kLoad);
+          largest, (s.state.pressure[i] - kUnitWeight * (kLayerHeight - s.model.mesh.nodes[i][1])) /
+                       kLayerLoad);
     if (stabilisation > 0.0)
       checks.at_most("overshoot", largest, 1.02);
     else
@@ -146,8 +147,8 @@ struct Mandel {
 /// Left edge: symmetry. Right edge: drained, free. Top: a plate.
 Solver slab(int elements) {
   constexpr double a = 10.0;
-  FemConfig c = config(elastic_soil(kYoung, kPoisson), a);
-  c.materials["soil"].permeability = {kPermeability, kPermeability};
+  FemConfig c = config(elastic_soil(kLayerYoung, kPoisson), a);
+  c.materials["soil"].permeability = {kLayerPermeability, kLayerPermeability};
   c.materials["soil"].density = 100.0;  // inertia only matters while the load comes
   Model m = build_model(
       section({.columns = elements, .rows = 2, .width = a, .height = 2.0 * a / elements}), c);
@@ -183,7 +184,7 @@ std::vector<Check> verify_mandel(std::string_view name) {
   CheckList checks(name);
   constexpr double a = 10.0;
   Solver s = slab(20);
-  const double c = kPermeability * kModulus / kUnitWeight, force = kLoad * a, ramp = 0.5;
+  const double c = kLayerPermeability * kModulus / kUnitWeight, force = kLayerLoad * a, ramp = 0.5;
   const Mandel exact;
   double peak = 0.0;
   constexpr std::array<double, 3> kAt{0.02, 0.1, 0.3};
@@ -191,11 +192,11 @@ std::vector<Check> verify_mandel(std::string_view name) {
   while (at < kAt.size()) {
     s.model.load[0] = -force * std::min(1.0, s.state.time / ramp);
     advance(s, {});
-    peak = std::max(peak, s.state.pressure[0] / (0.5 * kLoad));
+    peak = std::max(peak, s.state.pressure[0] / (0.5 * kLayerLoad));
     if (c * (s.state.time - 0.5 * ramp) / (a * a) < kAt[at]) continue;
-    checks.near(fmt::format("middle_at_{:g}", kAt[at]), s.state.pressure[0] / (0.5 * kLoad),
+    checks.near(fmt::format("middle_at_{:g}", kAt[at]), s.state.pressure[0] / (0.5 * kLayerLoad),
                 exact.pressure(0.0, kAt[at]), 0.01);
-    checks.near(fmt::format("half_at_{:g}", kAt[at]), s.state.pressure[10] / (0.5 * kLoad),
+    checks.near(fmt::format("half_at_{:g}", kAt[at]), s.state.pressure[10] / (0.5 * kLayerLoad),
                 exact.pressure(0.5, kAt[at]), 0.01);
     ++at;
   }

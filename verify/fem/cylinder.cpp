@@ -10,8 +10,8 @@
 namespace flowslide::fem {
 namespace {
 
-constexpr double kRadius = 10.0, kLoad = 100e3, kYoung = 10e6;
-constexpr double kPermeability = 1e-3, kUnitWeight = 9810.0;
+constexpr double kRadius = 10.0, kCylinderLoad = 100e3, kCylinderYoung = 10e6;
+constexpr double kCylinderPermeability = 1e-3;
 constexpr double kRamp = 0.5;  ///< time over which the load comes [s]
 
 /// Excess pore pressure over the load for incompressible grains and water, from the transform
@@ -92,14 +92,14 @@ QuadMesh quarter_disc(int n) {
 bool on_rim(const Vec2& p) { return hypot(p[0], p[1]) > kRadius * (1.0 - 1e-9); }
 
 Solver disc(int n, double poisson) {
-  const FemMaterialConfig c = elastic_soil(kYoung, poisson);
+  const FemMaterialConfig c = elastic_soil(kCylinderYoung, poisson);
   Model m;
   m.mesh = quarter_disc(n);
   m.materials = {{"soil",
                   flowslide::Material<LinearElastic>{*c.laws.of<LinearElastic>()},
                   100.0,  // inertia only matters while the load comes
                   c.void_ratio / (1.0 + c.void_ratio),
-                  {kPermeability, kPermeability},
+                  {kCylinderPermeability, kCylinderPermeability},
                   poisson}};
   m.material.assign(m.mesh.num_elements(), 0);
   m.thickness.assign(m.mesh.num_elements(), 1.0);
@@ -125,7 +125,7 @@ Solver disc(int n, double poisson) {
   return s;
 }
 
-void press(Solver& s, double load) {
+void press_cylinder(Solver& s, double load) {
   std::fill(s.model.load.begin(), s.model.load.end(), 0.0);
   const auto& x = s.model.mesh.nodes;
   for (const auto& element : s.model.mesh.elements)
@@ -148,15 +148,15 @@ std::vector<Check> verify_cylinder(std::string_view name) {
     const Cylinder exact(poisson);
     Solver s = disc(8, poisson);
     const double modulus = s.lambda[0] + 2.0 * s.shear[0];
-    const double c = kPermeability * modulus / kUnitWeight;
+    const double c = kCylinderPermeability * modulus / kUnitWeight;
     const std::string nu = fmt::format("nu_{:g}", poisson);
     constexpr std::array<double, 3> kAt{0.02, 0.1, 0.3};
     std::size_t at = 0;
     double peak = 0.0;
     while (at < kAt.size()) {
-      press(s, kLoad * std::min(1.0, s.state.time / kRamp));
+      press_cylinder(s, kCylinderLoad * std::min(1.0, s.state.time / kRamp));
       advance(s, {});
-      const double middle = s.state.pressure[0] / kLoad;
+      const double middle = s.state.pressure[0] / kCylinderLoad;
       const double T = c * (s.state.time - 0.5 * kRamp) / (kRadius * kRadius);
       if (s.state.time > 2.0 * kRamp) peak = std::max(peak, middle);
       if (T < kAt[at]) continue;

@@ -15,7 +15,7 @@ namespace flowslide::fem {
 namespace {
 
 /// How the top moves, and r_u in the middle at the end.
-struct History {
+struct ColumnHistory {
   std::vector<double> time, top;
   double r_u = 0.0, energy_error = 0.0;
 
@@ -26,26 +26,28 @@ struct History {
   }
 };
 
-constexpr double kEnd = 2.0, kHeight = 10.0;
-constexpr int kRows = 10;
+constexpr double kColumnEnd = 2.0, kColumnHeight = 10.0;
+constexpr int kColumnRows = 10;
 
-double ground(double t) { return 0.08 * sin(2.0 * kPi * 1.5 * t); }
+double column_motion(double t) { return 0.08 * sin(2.0 * kPi * 1.5 * t); }
 
-Solver column() {
-  FemConfig c = config(sand(), kHeight);
+Solver sand_column() {
+  FemConfig c = config(sand(), kColumnHeight);
   c.damping.stiffness = 1e-3;
-  return at_rest(section({.columns = 1, .rows = kRows, .width = 2.0, .height = kHeight}), c);
+  return at_rest(
+      section({.columns = 1, .rows = kColumnRows, .width = 2.0, .height = kColumnHeight}), c);
 }
 
 double middle_r_u(const Solver& s) {
-  return (s.state.pressure[kRows] - 0.5 * kHeight * 9810.0) / (900.0 * 9.81 * 0.5 * kHeight);
+  return (s.state.pressure[kColumnRows] - 0.5 * kColumnHeight * 9810.0) /
+         (900.0 * 9.81 * 0.5 * kColumnHeight);
 }
 
-History shake_explicitly() {
-  Solver s = column();
-  History h{{0.0}, {0.0}};
-  while (s.state.time < kEnd) {
-    advance(s, {ground(s.state.time), ground(s.state.time + s.dt)});
+ColumnHistory shake_column_explicitly() {
+  Solver s = sand_column();
+  ColumnHistory h{{0.0}, {0.0}};
+  while (s.state.time < kColumnEnd) {
+    advance(s, {column_motion(s.state.time), column_motion(s.state.time + s.dt)});
     h.time.push_back(s.state.time);
     h.top.push_back(s.state.displacement[s.model.dof.back()[0]]);
   }
@@ -174,12 +176,12 @@ class Trapezoidal {
   Energy energy_;
 };
 
-History shake_implicitly(double dt, double theta) {
-  Solver s = column();
+ColumnHistory shake_column_implicitly(double dt, double theta) {
+  Solver s = sand_column();
   Trapezoidal rule(s, dt, theta);
-  History h{{0.0}, {0.0}};
-  for (double t = 0.0; t < kEnd - 0.5 * dt; t += dt) {
-    rule.step(t, ground(t + dt));
+  ColumnHistory h{{0.0}, {0.0}};
+  for (double t = 0.0; t < kColumnEnd - 0.5 * dt; t += dt) {
+    rule.step(t, column_motion(t + dt));
     h.time.push_back(t + dt);
     h.top.push_back(rule.displacement()[s.model.dof.back()[0]]);
   }
@@ -189,13 +191,13 @@ History shake_implicitly(double dt, double theta) {
 }
 
 /// The same with the implicit steps of the program.
-History shake_with_program(double dt) {
-  Solver s = column();
+ColumnHistory shake_column_with_program(double dt) {
+  Solver s = sand_column();
   ImplicitSteps steps(s, {.step = dt, .tolerance = 1e-6});
   ImplicitRecord record;
-  History h{{0.0}, {0.0}};
-  while (s.state.time < kEnd - 0.5 * dt) {
-    steps.advance(s, record, kEnd - s.state.time, ground);
+  ColumnHistory h{{0.0}, {0.0}};
+  while (s.state.time < kColumnEnd - 0.5 * dt) {
+    steps.advance(s, record, kColumnEnd - s.state.time, column_motion);
     h.time.push_back(s.state.time);
     h.top.push_back(s.state.displacement[s.model.dof.back()[0]]);
   }
@@ -205,10 +207,10 @@ History shake_with_program(double dt) {
 }
 
 /// Root mean square difference of the top's displacement over the largest.
-double difference(const History& a, const History& b) {
+double top_difference(const ColumnHistory& a, const ColumnHistory& b) {
   double sum = 0.0, largest = 0.0;
   int count = 0;
-  for (double t = 0.02; t < kEnd - 0.02; t += 0.002, ++count) {
+  for (double t = 0.02; t < kColumnEnd - 0.02; t += 0.002, ++count) {
     sum += pow(a.at(t) - b.at(t), 2);
     largest = std::max(largest, std::abs(b.at(t)));
   }
@@ -219,21 +221,22 @@ double difference(const History& a, const History& b) {
 
 std::vector<Check> verify_implicit(std::string_view name) {
   CheckList checks(name);
-  const History direct = shake_explicitly();
-  const History fine = shake_implicitly(2e-3, 0.5), coarse = shake_implicitly(16e-3, 0.5);
+  const ColumnHistory direct = shake_column_explicitly();
+  const ColumnHistory fine = shake_column_implicitly(2e-3, 0.5),
+                      coarse = shake_column_implicitly(16e-3, 0.5);
   checks.at_least("r_u", direct.r_u, 0.1);
-  checks.error("top", difference(fine, direct), 0.005);
+  checks.error("top", top_difference(fine, direct), 0.005);
   checks.near("r_u_implicit", fine.r_u, direct.r_u, 0.005);
   // of first order, as stress is split at reversals; the explicit steps of 0.5 ms err by 0.1 %, too
   checks.at_least("gain_by_an_eighth_of_the_step",
-                  difference(coarse, direct) / difference(fine, direct), 3.0);
+                  top_difference(coarse, direct) / top_difference(fine, direct), 3.0);
   checks.error("energy_explicit", direct.energy_error, 1e-8);
   checks.error("energy_implicit", fine.energy_error, 1e-6);
-  const History program = shake_with_program(2e-3);
-  checks.error("program_against_own_assembly", difference(program, fine), 1e-5);
+  const ColumnHistory program = shake_column_with_program(2e-3);
+  checks.error("program_against_own_assembly", top_difference(program, fine), 1e-5);
   checks.error("energy_program", program.energy_error, 1e-6);
   // control: Euler's rule damps, and the check sees it
-  checks.at_least("control", difference(shake_implicitly(2e-3, 1.0), direct), 0.01);
+  checks.at_least("control", top_difference(shake_column_implicitly(2e-3, 1.0), direct), 0.01);
   return checks.take();
 }
 

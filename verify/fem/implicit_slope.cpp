@@ -13,9 +13,9 @@ namespace {
 
 // Shortly after the sand has liquefied. While it flows on, a change of 1e-15 in the motion grows to
 // some hundredths of the pore pressure within 3 s.
-constexpr double kEnd = 1.0, kSample = 0.02, kThreshold = 0.7, kStiffness = 476.0;
+constexpr double kSlopeEnd = 1.0, kSample = 0.02, kThreshold = 0.7, kStiffness = 476.0;
 
-double ground(double t) {
+double slope_motion(double t) {
   return 0.4 * std::min(1.0, t) * sin(2.0 * kPi * 1.5 * t);  // up to 0.38 g
 }
 
@@ -32,10 +32,10 @@ Solver slope(double G0) {
   return s;
 }
 
-struct History {
-  std::vector<double> crest;  ///< against the base, every kSample [m]
-  double r_u = 0.0;           ///< mean of the saturated elements, at the end
-  double liquefied = kEnd;    ///< when r_u of an element first passes kThreshold [s]
+struct SlopeHistory {
+  std::vector<double> crest;     ///< against the base, every kSample [m]
+  double r_u = 0.0;              ///< mean of the saturated elements, at the end
+  double liquefied = kSlopeEnd;  ///< when r_u of an element first passes kThreshold [s]
   double energy_error = 0.0;
   /// Implicit steps and their iterations before and after that, and halved steps in all.
   double steps[2] = {}, iterations[2] = {}, cut = 0.0;
@@ -58,14 +58,14 @@ std::pair<double, double> r_u(const Solver& s, const State& rest) {
 }
 
 /// `step(s, left)` takes one step and returns its iterations.
-History shake(Solver s, const std::function<double(Solver&, double)>& step) {
+SlopeHistory shake_slope(Solver s, const std::function<double(Solver&, double)>& step) {
   const State rest = s.state;
   constexpr std::size_t kCrest = 4 * 13 + 3;  // the surface at x = 6 m
-  History h;
-  for (int i = 1; i * kSample < kEnd * (1.0 + 1e-9); ++i) {
+  SlopeHistory h;
+  for (int i = 1; i * kSample < kSlopeEnd * (1.0 + 1e-9); ++i) {
     while (i * kSample - s.state.time > 1e-9) {
       const double iterations = step(s, i * kSample - s.state.time);
-      const int after = h.liquefied < kEnd ? 1 : 0;
+      const int after = h.liquefied < kSlopeEnd ? 1 : 0;
       h.steps[after] += 1.0;
       h.iterations[after] += iterations;
     }
@@ -79,23 +79,23 @@ History shake(Solver s, const std::function<double(Solver&, double)>& step) {
   return h;
 }
 
-History shake_explicitly(double share = 1.0, double G0 = kStiffness) {
+SlopeHistory shake_slope_explicitly(double share = 1.0, double G0 = kStiffness) {
   const Solver start = slope(G0);
   const double dt = share * start.dt;
-  return shake(start, [&](Solver& s, double left) {
+  return shake_slope(start, [&](Solver& s, double left) {
     s.dt = left / std::ceil(left / dt - 1e-9);
-    advance(s, {ground(s.state.time), ground(s.state.time + s.dt)});
+    advance(s, {slope_motion(s.state.time), slope_motion(s.state.time + s.dt)});
     return 0.0;
   });
 }
 
-History shake_implicitly(const ImplicitSettings& settings) {
+SlopeHistory shake_slope_implicitly(const ImplicitSettings& settings) {
   const Solver start = slope(kStiffness);
   ImplicitSteps steps(start, settings);
   ImplicitRecord record;
-  History h = shake(start, [&](Solver& s, double left) {
+  SlopeHistory h = shake_slope(start, [&](Solver& s, double left) {
     const std::int64_t before = record.iterations;
-    steps.advance(s, record, left, ground);
+    steps.advance(s, record, left, slope_motion);
     return static_cast<double>(record.iterations - before);
   });
   h.cut = static_cast<double>(record.cut);
@@ -103,7 +103,7 @@ History shake_implicitly(const ImplicitSettings& settings) {
 }
 
 /// Root mean square over the largest displacement.
-double difference(const History& a, const History& b) {
+double crest_difference(const SlopeHistory& a, const SlopeHistory& b) {
   double sum = 0.0, largest = 0.0;
   for (std::size_t i = 0; i < b.crest.size(); ++i) {
     sum += pow(a.crest[i] - b.crest[i], 2);
@@ -116,13 +116,13 @@ double difference(const History& a, const History& b) {
 
 std::vector<Check> verify_implicit_slope(std::string_view name) {
   CheckList checks(name);
-  const History direct = shake_explicitly(), shorter = shake_explicitly(0.25);
-  const History implicit = shake_implicitly({.step = 5e-3});
+  const SlopeHistory direct = shake_slope_explicitly(), shorter = shake_slope_explicitly(0.25);
+  const SlopeHistory implicit = shake_slope_implicitly({.step = 5e-3});
   checks.at_least("r_u", direct.r_u, 0.3);
-  checks.at_most("liquefied_at", direct.liquefied, 0.8 * kEnd, "s");
+  checks.at_most("liquefied_at", direct.liquefied, 0.8 * kSlopeEnd, "s");
   // Explicit steps a quarter as long are another answer, and the implicit one is about as far away.
-  checks.error("crest", difference(implicit, direct), 0.02);
-  checks.error("crest_explicit_quarter", difference(shorter, direct), 0.02);
+  checks.error("crest", crest_difference(implicit, direct), 0.02);
+  checks.error("crest_explicit_quarter", crest_difference(shorter, direct), 0.02);
   checks.near("r_u_implicit", implicit.r_u, direct.r_u, 0.04);
   checks.near("r_u_explicit_quarter", shorter.r_u, direct.r_u, 0.04);
   checks.error("energy_explicit", direct.energy_error, 1e-6);
@@ -132,7 +132,8 @@ std::vector<Check> verify_implicit_slope(std::string_view name) {
   checks.at_most("iterations_after", implicit.iterations[1] / implicit.steps[1], 20.0);
   checks.at_most("cut", implicit.cut, 10.0);
   // control: sand a fifth softer
-  checks.at_least("control", difference(implicit, shake_explicitly(1.0, 0.8 * kStiffness)), 0.04);
+  checks.at_least("control",
+                  crest_difference(implicit, shake_slope_explicitly(1.0, 0.8 * kStiffness)), 0.04);
   return checks.take();
 }
 

@@ -10,6 +10,8 @@
 /// Rectangles of one soil.
 namespace flowslide::fem {
 
+inline constexpr double kUnitWeight = 9810.0;  ///< of water [N/m3]
+
 struct Rectangle {
   int columns = 4, rows = 4;
   double width = 4.0, height = 4.0;  ///< [m]

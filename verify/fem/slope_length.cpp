@@ -10,14 +10,14 @@
 namespace flowslide::fem {
 namespace {
 
-constexpr double kEnd = 4.0, kLength = 2.0;
+constexpr double kShakingEnd = 4.0, kLength = 2.0;
 
-double ground(double t) {
+double shaking(double t) {
   const double fade = std::clamp((2.5 - t) / 0.5, 0.0, 1.0);
   return 0.1 * std::min(1.0, t) * fade * sin(2.0 * kPi * 1.5 * t);  // up to 0.1 g
 }
 
-/// Crest against the base after kEnd [m]; elements of `size` [m] before the slope.
+/// Crest against the base after kShakingEnd [m]; elements of `size` [m] before the slope.
 double crest(double size, std::optional<double> length) {
   const Rectangle shape{.columns = static_cast<int>(std::lround(24.0 / size)),
                         .rows = static_cast<int>(std::lround(8.0 / size)),
@@ -40,10 +40,10 @@ double crest(double size, std::optional<double> length) {
   if (length) spread_softening(s, *length);
   let_hourglass_yield(s);
   const double dt = s.dt;
-  while (kEnd - s.state.time > 1e-9) {
-    const double left = kEnd - s.state.time;
+  while (kShakingEnd - s.state.time > 1e-9) {
+    const double left = kShakingEnd - s.state.time;
     s.dt = left / std::ceil(left / dt - 1e-9);
-    advance(s, {ground(s.state.time), ground(s.state.time + s.dt)});
+    advance(s, {shaking(s.state.time), shaking(s.state.time + s.dt)});
   }
   const auto node = shape.rows * (shape.columns + 1) + std::lround(6.0 / size);
   return s.state.displacement[s.model.dof[node][0]] - s.state.displacement[s.model.dof[0][0]];

@@ -237,7 +237,7 @@ std::vector<Check> verify_pm4sand_step(std::string_view name) {
 
 namespace {
 
-enum class Outcome { finished, named, bad };
+enum class HostileOutcome { finished, named, bad };
 
 bool finite(const FemHistory& history) {
   const auto all = [](const auto& array) {
@@ -255,7 +255,7 @@ bool finite(const FemHistory& history) {
 }
 
 /// One random section and motion, from settings to the file; `random` goes on.
-Outcome hostile(std::mt19937& random) {
+HostileOutcome hostile(std::mt19937& random) {
   const auto uniform = [&](double a, double b) {
     return a + (b - a) * static_cast<double>(random()) / 4294967296.0;
   };
@@ -299,10 +299,11 @@ Outcome hostile(std::mt19937& random) {
     for (int i = 0; i <= 100; ++i)
       motion.acceleration.push_back(amplitude * sin(w * motion.dt * i));
     run_fem(mesh, motion, c, paths, 1, {});
-    return finite(FemHistory(paths.history)) ? Outcome::finished : Outcome::bad;
+    return finite(FemHistory(paths.history)) ? HostileOutcome::finished : HostileOutcome::bad;
   } catch (const Error& e) {
     const bool left = std::filesystem::exists(paths.history);
-    return !left && std::string_view(e.what()).size() > 20 ? Outcome::named : Outcome::bad;
+    return !left && std::string_view(e.what()).size() > 20 ? HostileOutcome::named
+                                                           : HostileOutcome::bad;
   }
 }
 

@@ -38,7 +38,7 @@ double gentle(double omega, double time, double rise) {
 
 namespace {
 
-constexpr double kHeight = 10.0;
+constexpr double kWaveColumn = 10.0;
 
 struct Soil {
   double modulus, density, storage, mobility;
@@ -66,27 +66,28 @@ Response exact_column(const Soil& m, double w) {
   const auto pressure = [&](Complex x) { return (m.modulus * x * x + m.density * w * w) / x; };
   for (int j = 0; j < 4; ++j) {
     // the factor keeps exp(s H) of growing modes in range
-    const Complex scale = exp(-std::max(0.0, s[j].real()) * kHeight);
+    const Complex scale = exp(-std::max(0.0, s[j].real()) * kWaveColumn);
     A(0, j) = scale;
     A(1, j) = scale * s[j] * pressure(s[j]);
-    A(2, j) = scale * pressure(s[j]) * exp(s[j] * kHeight);
-    A(3, j) = scale * m.modulus * s[j] * exp(s[j] * kHeight);
+    A(2, j) = scale * pressure(s[j]) * exp(s[j] * kWaveColumn);
+    A(3, j) = scale * m.modulus * s[j] * exp(s[j] * kWaveColumn);
   }
   const Eigen::Vector4cd x = A.fullPivLu().solve(rhs);
   Complex top = 0.0, base = 0.0;
   for (int j = 0; j < 4; ++j) {
-    const Complex scale = exp(-std::max(0.0, s[j].real()) * kHeight);
-    top += x[j] * scale * exp(s[j] * kHeight);
+    const Complex scale = exp(-std::max(0.0, s[j].real()) * kWaveColumn);
+    top += x[j] * scale * exp(s[j] * kWaveColumn);
     base += x[j] * scale * pressure(s[j]);
   }
   return {std::abs(top), std::abs(base)};
 }
 
 Response computed_column(int elements, double permeability, double w) {
-  FemConfig c = config(elastic_soil(10e6, 0.25), kHeight);
+  FemConfig c = config(elastic_soil(10e6, 0.25), kWaveColumn);
   c.materials["soil"].permeability = {permeability, permeability};
-  const double h = kHeight / elements;
-  Solver s = at_rest(section({.columns = 1, .rows = elements, .width = h, .height = kHeight}), c);
+  const double h = kWaveColumn / elements;
+  Solver s =
+      at_rest(section({.columns = 1, .rows = elements, .width = h, .height = kWaveColumn}), c);
   const double period = 2.0 * kPi / w, rise = 4.0 * period;
   s.dt = period / std::ceil(period / s.dt);
   const double still = s.state.pressure[0];
@@ -96,7 +97,7 @@ Response computed_column(int elements, double permeability, double w) {
   const auto first = static_cast<std::int64_t>(std::lround(6.0 * period / s.dt));
   for (std::int64_t k = 0; k < steps; ++k) {
     for (const std::int32_t node : s.layout.nodes.back())
-      if (s.model.mesh.nodes[node][1] > kHeight - 1e-9)
+      if (s.model.mesh.nodes[node][1] > kWaveColumn - 1e-9)
         s.model.load[s.model.dof[node][1]] = 0.5 * h * 1e3 * gentle(w, s.state.time, rise);
     // both nodes of the surface are one unknown
     s.model.load[top] *= 2.0;

@@ -8,7 +8,7 @@
 namespace flowslide::mpm {
 namespace {
 
-constexpr double kLength = 25.0, kYoung = 100.0, kDensity = 1.0, kAmplitude = 0.1;
+constexpr double kBarLength = 25.0, kYoung = 100.0, kBarDensity = 1.0, kAmplitude = 0.1;
 constexpr int kPeriods = 10;
 
 struct Swing {
@@ -17,11 +17,11 @@ struct Swing {
 };
 
 Swing swing(int cells, Transfer transfer, int order = 2) {
-  const double h = kLength / cells, beta = kPi / (2.0 * kLength);
-  const double period = 4.0 * kLength * std::sqrt(kDensity / kYoung);
+  const double h = kBarLength / cells, beta = kPi / (2.0 * kBarLength);
+  const double period = 4.0 * kBarLength * std::sqrt(kBarDensity / kYoung);
   ParticleSet p;
   p.materials = {elastic(kYoung, 0.0)};
-  fill(p, {0.0, 0.0, kLength, 2.0 * h}, 0.5 * h, kDensity);
+  fill(p, {0.0, 0.0, kBarLength, 2.0 * h}, 0.5 * h, kBarDensity);
   for (std::size_t q = 0; q < p.size(); ++q)
     p.velocity[q][0] = kAmplitude * sin(beta * p.position[q][0]);
   FlowConfig config = free_space(h);

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-/// V1: a column of `kHeight` under its own weight. In one dimension the vertical stress follows
-/// from equilibrium alone: -rho_0 g (l_0 - Y), Y the initial height.
+/// V1: a column of `kColumnHeight` under its own weight. In one dimension the vertical stress
+/// follows from equilibrium alone: -rho_0 g (l_0 - Y), Y the initial height.
 namespace flowslide::mpm {
 namespace {
 
-constexpr double kHeight = 50.0, kDensity = 80.0;
+constexpr double kColumnHeight = 50.0, kColumnDensity = 80.0;
 constexpr double kSoft = 1e6, kStiff = 1e7;  ///< compressed by 4 and 0.4 per cent at the foot [Pa]
 
 enum class Foot { ground, mirror };
@@ -20,10 +20,11 @@ enum class Foot { ground, mirror };
 /// stands on its own mirror image under gravity towards y = 0, which tells the error of the ground
 /// from that of the interior.
 double compaction_error(int cells, int points, double young, Foot foot) {
-  const double h = kHeight / cells, time = 15.0 * std::sqrt(kSoft / young);
+  const double h = kColumnHeight / cells, time = 15.0 * std::sqrt(kSoft / young);
   ParticleSet p;
   p.materials = {elastic(young, 0.0)};
-  fill(p, {0.0, foot == Foot::ground ? 0.0 : -kHeight, 3.0 * h, kHeight}, h / points, kDensity);
+  fill(p, {0.0, foot == Foot::ground ? 0.0 : -kColumnHeight, 3.0 * h, kColumnHeight}, h / points,
+       kColumnDensity);
   FlowConfig config = free_space(h);
   if (foot == Foot::ground) config.ground.surface = {{0.0, 0.0}};
   config.ground.friction = 0.0;
@@ -39,11 +40,12 @@ double compaction_error(int cells, int points, double young, Foot foot) {
   double sum = 0.0, volume = 0.0;
   strip.for_each([&](std::size_t i) {
     const std::size_t start = static_cast<std::size_t>(q.index[i]) % p.size();
-    const double exact = -kDensity * kGravity * (kHeight - std::abs(p.position[start][1]));
+    const double exact =
+        -kColumnDensity * kGravity * (kColumnHeight - std::abs(p.position[start][1]));
     sum += std::abs(q.sigma[1][i] - exact) * p.volume[start];
     volume += p.volume[start];
   });
-  return sum / volume / (kDensity * kGravity * kHeight);
+  return sum / volume / (kColumnDensity * kGravity * kColumnHeight);
 }
 
 double tolerance(int cells) { return 1e-3 * (40.0 / cells) * (40.0 / cells); }
@@ -58,7 +60,7 @@ std::vector<Check> verify_compaction(std::string_view name) {
                  compaction_error(cells, 2, kSoft, Foot::ground), tolerance(cells));
   // Ten times as stiff: the floor of the quadrature, the square of the strain, is out of sight.
   for (const int cells : {10, 20, 40}) {
-    size.push_back(kHeight / cells);
+    size.push_back(kColumnHeight / cells);
     error.push_back(compaction_error(cells, 4, kStiff, Foot::ground));
     checks.error(fmt::format("stiff_4_points_{}_cells", cells), error.back(), tolerance(cells));
   }

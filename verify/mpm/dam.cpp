@@ -24,7 +24,7 @@ bool contains(const Polygon& polygon, double x, double y) {
 }
 
 /// Height of the section's surface.
-double surface(double x) {
+double pond_or_slope(double x) {
   if (x < -20.0) return kPond;
   if (x < 35.42) return kPond - (x + 20.0) / 55.42 * 17.5;
   return std::max(0.0, (75.0 - x) / 39.58 * 12.5);
@@ -64,7 +64,7 @@ ParticleSet dam_points(const DamScene& scene) {
     for (int j = 0; j < ny; ++j) {
       for (int i = 0; i < nx; ++i) {
         const double x = -scene.upstream + (i + 0.5) * d, z = (k + 0.5) * d;
-        const double depth = surface(x) - z;
+        const double depth = pond_or_slope(x) - z;
         if (depth <= 0.0) continue;
         const int kind =
             contains(kLowerDam, x, z) || contains(kUpperDam, x, z) ? embankment : tailings;

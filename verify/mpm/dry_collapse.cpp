@@ -9,14 +9,14 @@
 namespace flowslide::mpm {
 namespace {
 
-constexpr double kDensity = 1600.0, kGrains = 2500.0;  ///< of the bulk and of grains [kg/m3]
+constexpr double kSandDensity = 1600.0, kGrains = 2500.0;  ///< of the bulk and of grains [kg/m3]
 /// Young's modulus over the vertical stress at the foot: a quarter or ten times as much moves the
 /// front by 3 %.
 constexpr double kStiffness = 127.0;
-constexpr double kLongest = 12.5, kLook = 0.3;  ///< [sqrt(height / g)]
+constexpr double kLongestCollapse = 12.5, kLook = 0.3;  ///< [sqrt(height / g)]
 
 MaterialSpec grains(const DryColumn& c, double height) {
-  std::map<std::string, double> v{{"youngs_modulus", kStiffness * kDensity * kGravity * height},
+  std::map<std::string, double> v{{"youngs_modulus", kStiffness * kSandDensity * kGravity * height},
                                   {"poisson_ratio", c.poisson_ratio}};
   if (c.law == Friction::rate) {
     v.merge(std::map<std::string, double>{{"mu_static", c.friction},
@@ -46,7 +46,7 @@ ParticleSet lattice(const DryColumn& c, double height, double spacing) {
         const double x = (i + 0.5) * spacing, y = (j + 0.5) * spacing, z = (k + 0.5) * spacing;
         if (c.shape == Shape::round && x * x + y * y > c.length * c.length) continue;
         const std::size_t q = p.size();
-        const double vertical = -kDensity * kGravity * (height - z), side = k0 * vertical;
+        const double vertical = -kSandDensity * kGravity * (height - z), side = k0 * vertical;
         resize(p, q + 1);
         if constexpr (Dim == 2) {
           p.position[q] = {x, z, 0.0};
@@ -56,7 +56,7 @@ ParticleSet lattice(const DryColumn& c, double height, double spacing) {
           p.stress[q] = {side, side, vertical, 0.0, 0.0, 0.0};
         }
         p.volume[q] = pow(spacing, Dim);
-        p.mass[q] = kDensity * p.volume[q];
+        p.mass[q] = kSandDensity * p.volume[q];
         p.material[q] = 0;
         p.id[q] = static_cast<std::int64_t>(q) + 1;
       }
@@ -85,7 +85,7 @@ double edge(const std::vector<Place>& places, const DryColumn& c, double scale, 
     const double area = c.shape == Shape::round     ? ring
                         : c.shape == Shape::channel ? strip * c.width
                                                     : strip;
-    layer[k] += p.mass / (kDensity * area);
+    layer[k] += p.mass / (kSandDensity * area);
   }
   std::size_t last = layer.size() - 2;
   while (last > 0 && layer[last] < thickness) --last;
@@ -128,7 +128,7 @@ Deposit run(DryColumn c, int cells) {
   prepare(s, scratch, true);
   const double unit = std::sqrt(height / kGravity);
   double peak = 0.0, now = 0.0;
-  for (double t = kLook; t <= kLongest; t += kLook) {
+  for (double t = kLook; t <= kLongestCollapse; t += kLook) {
     while (s.time < t * unit) advance(s, scratch);
     now = kinetic(s.points);
     peak = std::max(peak, now);

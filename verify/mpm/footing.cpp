@@ -9,7 +9,7 @@
 namespace flowslide::mpm {
 namespace {
 
-constexpr double kHalfWidth = 1.0, kCohesion = 10e3, kDensity = 2000.0;
+constexpr double kHalfWidth = 1.0, kCohesion = 10e3, kClayDensity = 2000.0;
 constexpr double kWide = 4.0, kDeep = 2.0;
 constexpr double kDamping = 10.0;  ///< in proportion to the mass [1/s]
 
@@ -59,7 +59,7 @@ struct Footing {
     spacing = 0.5 * d.cell;
     ParticleSet p;
     p.materials = {soil};
-    fill(p, {0.0, 0.0, kWide, kDeep}, spacing, kDensity);
+    fill(p, {0.0, 0.0, kWide, kDeep}, spacing, kClayDensity);
     loaded.resize(p.size());
     for (std::size_t i = 0; i < p.size(); ++i)
       loaded[i] = p.position[i][1] > kDeep - spacing && p.position[i][0] < kHalfWidth;

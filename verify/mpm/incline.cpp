@@ -9,26 +9,28 @@
 namespace flowslide::mpm {
 namespace {
 
-constexpr double kSlope = kPi / 6.0, kLength = 5.0, kHeight = 1.0, kDensity = 2000.0, kCell = 0.25;
-constexpr double kEnd = 1.0;
+constexpr double kSlope = kPi / 6.0, kBlockLength = 5.0, kBlockHeight = 1.0, kBlockDensity = 2000.0,
+                 kBlockCell = 0.25;
+constexpr double kSlideEnd = 1.0;
 
-struct Slide {
-  double along, normal;  ///< displacement of the centre of mass after kEnd [m]
+struct BlockSlide {
+  double along, normal;  ///< displacement of the centre of mass after kSlideEnd [m]
 };
 
 /// The answer is that of a rigid block. An elastic one rubs less until a shear wave has told its
 /// mass of the ground: it gains about mu g cos(a) t_s / 2, t_s = H / c_s.
 /// `turn` is the angle of the ground to the grid [rad]; the ground falls to the right.
-Slide slide(double turn, double mu) {
+BlockSlide slide_block(double turn, double mu) {
   const std::array<double, 2> along{cos(turn), -sin(turn)};
   const std::array<double, 2> normal{sin(turn), cos(turn)};
   ParticleSet p;
   p.materials = {elastic(200e6, 0.2)};
-  fill(p, {-0.5 * kLength, 0.0, 0.5 * kLength, kHeight}, 0.5 * kCell, kDensity);
+  fill(p, {-0.5 * kBlockLength, 0.0, 0.5 * kBlockLength, kBlockHeight}, 0.5 * kBlockCell,
+       kBlockDensity);
   for (std::size_t q = 0; q < p.size(); ++q) {
     const double s = p.position[q][0], n = p.position[q][1];
     p.position[q] = {s * along[0] + n * normal[0], s * along[1] + n * normal[1], 0.0};
-    const double stress = -kDensity * kGravity * cos(kSlope) * (kHeight - n);
+    const double stress = -kBlockDensity * kGravity * cos(kSlope) * (kBlockHeight - n);
     p.stress[q] = {stress * normal[0] * normal[0],
                    stress * normal[1] * normal[1],
                    0.0,
@@ -36,7 +38,7 @@ Slide slide(double turn, double mu) {
                    0.0,
                    0.0};
   }
-  FlowConfig config = free_space(kCell);
+  FlowConfig config = free_space(kBlockCell);
   const double reach = 20.0;
   config.ground.surface = {{-reach, reach * tan(turn)}, {reach, -reach * tan(turn)}};
   config.ground.friction = mu;
@@ -51,11 +53,11 @@ Slide slide(double turn, double mu) {
     return sum;
   };
   const auto start = centre();
-  trial.run_to(kEnd);
+  trial.run_to(kSlideEnd);
   const auto end = centre();
   const double dx = end[0] - start[0], dy = end[1] - start[1];
-  // The last step went a little beyond kEnd: back along the parabola.
-  const double to_end = pow(kEnd / trial.sim.time, 2);
+  // The last step went a little beyond kSlideEnd: back along the parabola.
+  const double to_end = pow(kSlideEnd / trial.sim.time, 2);
   return {(dx * along[0] + dy * along[1]) * to_end, dx * normal[0] + dy * normal[1]};
 }
 
@@ -64,13 +66,14 @@ Slide slide(double turn, double mu) {
 std::vector<Check> verify_incline(std::string_view name) {
   CheckList checks(name);
   const double mu = 0.3;
-  const double exact = 0.5 * kGravity * (sin(kSlope) - mu * cos(kSlope)) * kEnd * kEnd;
+  const double exact = 0.5 * kGravity * (sin(kSlope) - mu * cos(kSlope)) * kSlideEnd * kSlideEnd;
   for (const int degrees : {0, 15, 30, 45}) {
     const double turn = degrees * kPi / 180.0;
-    const Slide sliding = slide(turn, mu);
+    const BlockSlide sliding = slide_block(turn, mu);
     checks.near(fmt::format("slide_{}_deg", degrees), sliding.along, exact, 0.005 * exact, "m");
-    checks.error(fmt::format("gap_{}_deg", degrees), sliding.normal, 0.05 * kCell, "m");
-    checks.error(fmt::format("stick_{}_deg", degrees), slide(turn, 0.7).along, 0.005 * exact, "m");
+    checks.error(fmt::format("gap_{}_deg", degrees), sliding.normal, 0.05 * kBlockCell, "m");
+    checks.error(fmt::format("stick_{}_deg", degrees), slide_block(turn, 0.7).along, 0.005 * exact,
+                 "m");
   }
   return checks.take();
 }

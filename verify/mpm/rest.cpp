@@ -9,7 +9,7 @@
 namespace flowslide::mpm {
 namespace {
 
-constexpr double kHeight = 5.0, kDensity = 1800.0, kCell = 0.5;
+constexpr double kLayerHeight = 5.0, kLayerDensity = 1800.0, kLayerCell = 0.5;
 
 struct Motion {
   double fastest;     ///< largest speed ever [m/s]
@@ -20,13 +20,13 @@ struct Motion {
 Motion stand(double offset, int steps) {
   ParticleSet p;
   p.materials = {elastic(20e6, 0.49)};
-  fill(p, {0.0, 0.0, 2.0, kHeight}, 0.5 * kCell, kDensity);
+  fill(p, {0.0, 0.0, 2.0, kLayerHeight}, 0.5 * kLayerCell, kLayerDensity);
   for (std::size_t q = 0; q < p.size(); ++q) {
-    const double s = -kDensity * kGravity * (kHeight - p.position[q][1]);
+    const double s = -kLayerDensity * kGravity * (kLayerHeight - p.position[q][1]);
     p.stress[q] = {s, s, s, 0.0, 0.0, 0.0};
   }
-  FlowConfig config = free_space(kCell);
-  config.grid_origin = {0.0, offset * kCell};
+  FlowConfig config = free_space(kLayerCell);
+  config.grid_origin = {0.0, offset * kLayerCell};
   config.gravity = kGravity;
   config.ground.surface = {{0.0, 0.0}};
   config.left_roller = 0.0;
@@ -42,8 +42,8 @@ Motion stand(double offset, int steps) {
   for (std::size_t i = 0; i < q.size(); ++i) {
     const double mean = (q.sigma[0][i] + q.sigma[1][i] + q.sigma[2][i]) / 3.0;
     const double exact = p.stress[static_cast<std::size_t>(q.index[i])][0];
-    m.mean_error +=
-        std::abs(mean - exact) / (kDensity * kGravity * kHeight) / static_cast<double>(q.size());
+    m.mean_error += std::abs(mean - exact) / (kLayerDensity * kGravity * kLayerHeight) /
+                    static_cast<double>(q.size());
   }
   return m;
 }
@@ -52,7 +52,7 @@ Motion stand(double offset, int steps) {
 
 std::vector<Check> verify_rest(std::string_view name) {
   CheckList checks(name);
-  const double limit = 1e-3 * std::sqrt(kGravity * kHeight);
+  const double limit = 1e-3 * std::sqrt(kGravity * kLayerHeight);
   for (const auto& [label, offset] : {std::pair{"aligned", 0.0}, std::pair{"offset", 0.3}}) {
     const Motion m = stand(offset, 100000);
     checks.error(fmt::format("fastest_{}", label), m.fastest, limit, "m/s");

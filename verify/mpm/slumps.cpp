@@ -11,9 +11,9 @@
 namespace flowslide::mpm {
 namespace {
 
-constexpr double kRough = 1e6;     ///< friction coefficient of a base on which nothing slides
-constexpr double kSoil = 2000.0;   ///< density of the undrained columns [kg/m3]
-constexpr double kLongest = 40.0;  ///< that undrained columns may take to come to rest [s]
+constexpr double kRough = 1e6;          ///< friction coefficient of a base on which nothing slides
+constexpr double kSoil = 2000.0;        ///< density of the undrained columns [kg/m3]
+constexpr double kLongestSlump = 40.0;  ///< that undrained columns may take to come to rest [s]
 
 /// Points of a column of length L0 and height H0 in a stress of its weight, sigma_h = k sigma_v.
 ParticleSet column(double length, double height, double cell, double density, double k) {
@@ -37,7 +37,7 @@ FlowConfig against_wall(double cell, Transfer transfer, double friction) {
 }
 
 /// Height of the surface near x: that of the highest point within half a cell, plus half its size.
-double surface(const Points<2>& p, double x, double cell) {
+double surface_at(const Points<2>& p, double x, double cell) {
   double top = 0.0;
   for (std::size_t q = 0; q < p.size(); ++q)
     if (std::abs(p.x[0][q] - x) < 0.5 * cell) top = std::max(top, p.x[1][q] + 0.25 * cell);
@@ -76,7 +76,7 @@ double end_of_layer(const Points<2>& p, double density, double thickness) {
 }
 
 // Of the bars: Bui et al. (2008).
-constexpr double kLength = 0.2, kHeight = 0.1, kDensity = 2650.0;
+constexpr double kBarsLength = 0.2, kBarsHeight = 0.1, kBarsDensity = 2650.0;
 constexpr double kThinnest = 0.001, kThickest = 0.0015;
 constexpr double kUntil = 0.8;  ///< 8 sqrt(height / g) [s]
 using Line = std::array<double, 2>;
@@ -106,7 +106,7 @@ MaterialSpec bars_of(const Bars& b) {
                                                {"mu_limit", tan(angle) + b.rise},
                                                {"inertial_number", b.inertial},
                                                {"grain_size", 0.5 * (kThinnest + kThickest)},
-                                               {"grain_density", kDensity}});
+                                               {"grain_density", kBarsDensity}});
     return material("mu_i", values);
   }
   const double phi = b.law == Friction::coulomb_plane ? asin(tan(angle)) : angle;
@@ -119,7 +119,7 @@ MaterialSpec bars_of(const Bars& b) {
 double failure_error(const Points<2>& p, const ParticleSet& start, double cell) {
   double sum = 0.0;
   for (const auto& [x, y] : kFailure) {
-    double rear = kLength;
+    double rear = kBarsLength;
     for (std::size_t q = 0; q < p.size(); ++q) {
       const auto& from = start.position[static_cast<std::size_t>(p.index[q])];
       const bool moved = p.x[0][q] - from[0] > kThickest;
@@ -127,10 +127,10 @@ double failure_error(const Points<2>& p, const ParticleSet& start, double cell) 
     }
     sum += pow(rear - x, 2);
   }
-  return std::sqrt(sum / kFailure.size()) / kHeight;
+  return std::sqrt(sum / kFailure.size()) / kBarsHeight;
 }
 
-MaterialSpec tresca(double strength, double stiffness_ratio, double nu) {
+MaterialSpec clay_of(double strength, double stiffness_ratio, double nu) {
   return material("residual_strength", {{"youngs_modulus", stiffness_ratio * strength},
                                         {"poisson_ratio", nu},
                                         {"strength", strength},
@@ -143,17 +143,17 @@ MaterialSpec tresca(double strength, double stiffness_ratio, double nu) {
 BarDeposit collapse(const Bars& bars) {
   constexpr double nu = 0.3;
   const double h = bars.cell;
-  ParticleSet p = column(kLength, kHeight, h, kDensity, nu / (1.0 - nu));
+  ParticleSet p = column(kBarsLength, kBarsHeight, h, kBarsDensity, nu / (1.0 - nu));
   p.materials = {bars_of(bars)};
   Trial trial(p, against_wall(h, bars.transfer, bars.ground));
   trial.run_to(kUntil);
   const Points<2>& end = trial.sim.points;
   double sum = 0.0;
-  for (const auto& [x, y] : kSurface) sum += pow(surface(end, std::max(x, 0.5 * h), h) - y, 2);
-  return {end_of_layer(end, kDensity, kThickest),
+  for (const auto& [x, y] : kSurface) sum += pow(surface_at(end, std::max(x, 0.5 * h), h) - y, 2);
+  return {end_of_layer(end, kBarsDensity, kThickest),
           front(end, h, 0.005),
-          surface(end, 0.5 * h, h),
-          std::sqrt(sum / kSurface.size()) / kHeight,
+          surface_at(end, 0.5 * h, h),
+          std::sqrt(sum / kSurface.size()) / kBarsHeight,
           failure_error(end, p, h),
           trial.balances().energy_error};
 }
@@ -161,12 +161,12 @@ BarDeposit collapse(const Bars& bars) {
 ClayDeposit collapse(const Clay& clay) {
   const double height = 1.0, length = height / clay.aspect, h = height / clay.cells;
   ParticleSet p = column(length, height, h, kSoil, 1.0);
-  p.materials = {tresca(clay.b * kSoil * kGravity * height, 100.0, 0.45)};
+  p.materials = {clay_of(clay.b * kSoil * kGravity * height, 100.0, 0.45)};
   FlowConfig config = against_wall(h, clay.transfer, kRough);
   config.damping = clay.damping;
   Trial trial(p, config);
   ClayDeposit d;
-  for (double time = 1.0; time <= kLongest; time += 1.0) {
+  for (double time = 1.0; time <= kLongestSlump; time += 1.0) {
     trial.run_to(time);
     const double now = front(trial.sim.points, h, 0.002) / length;
     const double advance = now - d.foremost;
@@ -181,7 +181,7 @@ ClayDeposit collapse(const Clay& clay) {
 bool cut_stands(double b, int cells_in_height) {
   const double height = 1.0, h = height / cells_in_height;
   ParticleSet p = column(2.0 * height, height, h, kSoil, 1.0);
-  p.materials = {tresca(b * kSoil * kGravity * height, 1000.0, 0.45)};
+  p.materials = {clay_of(b * kSoil * kGravity * height, 1000.0, 0.45)};
   FlowConfig config = against_wall(h, Transfer::apic, kRough);
   config.damping = 0.5;
   Trial trial(p, config);

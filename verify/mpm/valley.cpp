@@ -10,14 +10,14 @@
 namespace flowslide::mpm {
 namespace {
 
-struct Slide {
+struct DamSlide {
   double front;   ///< x beyond which 1 % of the mass lies [m]
   double centre;  ///< how far the centre of mass has moved [m]
   double energy_error;
 };
 
 template <int Dim>
-Slide slide(const DamScene& scene, double end) {
+DamSlide slide_dam(const DamScene& scene, double end) {
   const ParticleSet particles = dam_points(scene);
   const FlowConfig config = dam_config(scene);
   Simulation<Dim> s = make_simulation<Dim>(particles, config);
@@ -46,15 +46,15 @@ std::vector<Check> verify_valley(std::string_view name) {
   constexpr double kEnd = 15.0;
   DamScene scene;
   scene.upstream = 120.0;
-  const Slide plane = slide<2>(scene, kEnd);
+  const DamSlide plane = slide_dam<2>(scene, kEnd);
   scene.width = 10.0;
-  const Slide valley = slide<3>(scene, kEnd);
+  const DamSlide valley = slide_dam<3>(scene, kEnd);
   checks.near("front", valley.front, plane.front, 0.5 * scene.cell, "m");
   checks.near("centre_of_mass", valley.centre, plane.centre, 0.01 * plane.centre, "m");
   checks.error("energy_balance", valley.energy_error, 0.01);
   // Control: without the walls the slab falls apart sideways and does not go as far.
   scene.walls = false;
-  const Slide open = slide<3>(scene, kEnd);
+  const DamSlide open = slide_dam<3>(scene, kEnd);
   checks.at_least("control_without_walls_front_off_m", std::abs(open.front - plane.front),
                   0.5 * scene.cell);
   return checks.take();

@@ -8,8 +8,6 @@
 namespace flowslide::section {
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
-
 /// The dam of workflows/mochikoshi.yaml with its tailings liquefied to a depth below the pond.
 SlopeModel dam(double liquefied_depth) {
   const SlopeSoil foundation{.name = "foundation",

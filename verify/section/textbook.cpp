@@ -8,8 +8,6 @@
 namespace flowslide::section {
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
-
 /// One soil under a straight slope that falls from (0, height) to (width, 0), with level ground.
 SlopeModel straight_slope(const SlopeSoil& soil, double width, double height, double bottom) {
   SlopeModel m;

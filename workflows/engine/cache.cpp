@@ -86,7 +86,7 @@ std::string short_version(std::string program) {
 /// Looks at what lies under the name of the result; fills record and files, or problems.
 void look_at_result(Decision& decision, const fs::path& folder, const WorkflowStage& stage,
                     const Between& between) {
-  RecordRead read = read_record(folder);
+  RecordRead read = read_stage_record(folder);
   if (read.record && !fits(*read.record, stage, decision.key))
     read = {{}, fmt::format("{} is that of another result", kRecordFile)};
   if (!read.record) {

@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kKey = "headlines";
+constexpr const char* kHeadlinesKey = "headlines";
 
 Json to_json(const std::vector<Headline>& headlines) {
   Json list = Json::array();
@@ -23,15 +23,16 @@ Json to_json(const std::vector<Headline>& headlines) {
 std::string add_headlines(const std::string& facts, const std::vector<Headline>& headlines) {
   Json json = Json::parse(facts, nullptr, false);
   if (!json.is_object() || headlines.empty()) return facts;
-  json[kKey] = to_json(headlines);
+  json[kHeadlinesKey] = to_json(headlines);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::vector<Headline> headlines_of(const std::string& result) {
   std::vector<Headline> headlines;
   const Json json = Json::parse(result, nullptr, false);
-  if (!json.is_object() || !json.contains(kKey) || !json[kKey].is_array()) return headlines;
-  for (const Json& h : json[kKey]) {
+  if (!json.is_object() || !json.contains(kHeadlinesKey) || !json[kHeadlinesKey].is_array())
+    return headlines;
+  for (const Json& h : json[kHeadlinesKey]) {
     if (!h.is_object()) continue;
     const auto text = [&h](const char* key) {
       const auto at = h.find(key);

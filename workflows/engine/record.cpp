@@ -164,7 +164,7 @@ void write_record(const fs::path& folder, StageRecord& record) {
   write_file(folder / kRecordFile, seal(json));
 }
 
-RecordRead read_record(const fs::path& folder) {
+RecordRead read_stage_record(const fs::path& folder) {
   const SealedJson file = read_sealed(folder / kRecordFile);
   if (!file.json) {
     std::error_code error;

@@ -68,7 +68,7 @@ struct RecordRead {
 
 /// Checks the text by its checksum and every name in it by names.hpp. FileError if the system
 /// cannot read what is there.
-RecordRead read_record(const std::filesystem::path& folder);
+RecordRead read_stage_record(const std::filesystem::path& folder);
 
 /// The files of a result against its record.
 struct Verified {

@@ -13,13 +13,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kKey = "warnings";
+constexpr const char* kWarningsKey = "warnings";
 
 std::vector<std::string> read_warnings(const std::string& facts) {
   std::vector<std::string> warnings;
   const Json json = Json::parse(facts, nullptr, false);
-  if (!json.is_object() || !json.contains(kKey) || !json[kKey].is_array()) return warnings;
-  for (const Json& text : json[kKey])
+  if (!json.is_object() || !json.contains(kWarningsKey) || !json[kWarningsKey].is_array())
+    return warnings;
+  for (const Json& text : json[kWarningsKey])
     if (text.is_string()) warnings.push_back(text.get<std::string>());
   return warnings;
 }
@@ -28,8 +29,8 @@ std::vector<std::string> read_warnings(const std::string& facts) {
 
 std::string add_warnings(const std::string& facts, const std::vector<std::string>& warnings) {
   Json json = Json::parse(facts, nullptr, false);
-  if (!json.is_object() || (warnings.empty() && !json.contains(kKey))) return facts;
-  json[kKey] = warnings;
+  if (!json.is_object() || (warnings.empty() && !json.contains(kWarningsKey))) return facts;
+  json[kWarningsKey] = warnings;
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -12,7 +12,7 @@ constexpr double kFewestCells = 4.0;
 constexpr double kFewCells = 12.0;
 
 // What a point takes at most while it is run in three dimensions: its fields twice, its nodes.
-constexpr double kBytesPerPoint3d = 1500.0;
+constexpr double kBytesPerSeededPoint3d = 1500.0;
 
 }  // namespace
 
@@ -98,7 +98,7 @@ void check_memory(const MapConfig& map, const Soil& soil, double width, double m
   const double per_metre = map.points_per_cell / map.cell;
   const bool plane = std::isnan(width);
   const double points = soil.area * per_metre * per_metre * (plane ? 1.0 : width * per_metre);
-  const double bytes = points * (plane ? kBytesPerSeededPoint : kBytesPerPoint3d);
+  const double bytes = points * (plane ? kBytesPerSeededPoint : kBytesPerSeededPoint3d);
   if (bytes > memory)
     found.errors.push_back(fmt::format(
         "cell: {:g} m makes about {:.2g} points, which take about {:.2g} GB (this machine has "

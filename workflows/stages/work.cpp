@@ -56,7 +56,7 @@ double stable_step(double height, const FemDampingConfig& damping) {
 
 double elements_of(const QuadMesh& mesh) { return static_cast<double>(mesh.elements.size()); }
 
-double points_of(const MapConfig& map, const Soil& soil) {
+double seeded_points(const MapConfig& map, const Soil& soil) {
   if (map.seeding == Seeding::gauss) return 4.0 * static_cast<double>(soil.centres.size());
   const double per_metre = map.points_per_cell / map.cell;
   return soil.area * per_metre * per_metre;
@@ -118,7 +118,7 @@ Work zone_work(const QuadMesh& mesh, bool shakes, std::optional<double> end) {
 }
 
 Work map_work(const MapConfig& map, const Soil& soil) {
-  const double points = points_of(map, soil);
+  const double points = seeded_points(map, soil);
   return {.seconds = kStart + kPerSeededPoint * points,
           .parallel = 0.0,
           .memory = kProgram + kBytesPerPoint * points};
@@ -131,7 +131,7 @@ Work flow_work(const FlowConfig& flow, const MapConfig& map,
   if (!(wave > 0.0)) return {};
   const bool plane = !flow.extrude;
   const double across = plane ? 1.0 : flow.extrude->width * map.points_per_cell / map.cell;
-  const double points = points_of(map, soil) * across;
+  const double points = seeded_points(map, soil) * across;
   const double rest = kTimesOfFall * std::sqrt(soil.counted.height() / kGravity);
   const double cells = plane ? mpm::stable_cells<2>(flow) : mpm::stable_cells<3>(flow);
   const double step = cells * flow.cell / wave * flow.courant;

@@ -1,0 +1,3 @@
+namespace {
+constexpr int kLeft = 1, kTaken = 2;
+}  // namespace

@@ -1,0 +1,3 @@
+namespace {
+constexpr int kTaken = 3, kRight = 4;
+}  // namespace
