@@ -25,7 +25,7 @@ constexpr double kBytesPerPoint = 1.5e3, kBytesPerPoint3d = 2e3;
 constexpr double kMotion = 0.1, kReport = 0.1, kFigures = 6.0, kReportBytes = 100e6;
 
 constexpr double kUsualShaking = 30.0;  ///< of a motion of which nothing is known [s]
-constexpr double kOutputInterval = 0.25;
+constexpr double kOutputInterval = 0.1;
 constexpr double kUntilTransfer = 0.7;  ///< of a shaking that ends by the rule of the transfer
 constexpr double kSaturatedWave = 700.0, kDryWave = 250.0;  ///< of soil under a dam [m/s]
 constexpr double kTimesOfFall = 35.0;                       ///< sqrt(H/g) until a slide is at rest
