@@ -6,7 +6,7 @@
 #include <vector>
 
 /// How many threads a long run uses. Where another program holds the core of one thread, the others
-/// wait for it in every sweep, and fewer threads are faster. docs/adr/0007-short-spins.md
+/// wait for it in every sweep, and fewer threads are faster. docs/adr/0007-openmp-waits.md
 namespace flowslide {
 
 /// Finds the fastest number of threads among `most`, its half, its quarter ... and 1 by trying,

@@ -172,6 +172,55 @@ template <int kPart, int Dim, class Basis, class Target>
   });
 }
 
+/// Place of node n of a stencil in a window of parts.
+template <int Dim, class Basis>
+constexpr int window_offset(int n) {
+  constexpr int N = Basis::nodes, W = kLocalWidth<Dim, Basis>;
+  return kNodeParts * (n % N + W * (n / N % N) + W * W * (n / (N * N)));
+}
+
+/// Sums of the nodes of one point, which stay in registers while points of the same cell follow;
+/// of stencils that registers have no room for, nothing.
+template <int Dim, class Basis>
+struct HeldSums {
+  static constexpr int nodes = power<Dim>(Basis::nodes);
+  static constexpr bool on = nodes <= 16;
+  NodePart sum[Contributions<Dim>::parts][on ? nodes : 1]{};
+  std::int32_t cell = -1;  ///< Stencil::at of the point; -1: none yet
+};
+
+/// A part of what the points of a pack give to their nodes, into `sums` and `held`.
+template <int kPart, int Dim, class Basis, class Lanes>
+[[gnu::always_inline]] inline void give_part(const Stencil<Dim, Basis>& s, int count,
+                                             const Lanes& lanes, const Contributions<Dim>& give,
+                                             HeldSums<Dim, Basis>& held, NodePart* sums) noexcept {
+  constexpr int T = HeldSums<Dim, Basis>::nodes;
+  constexpr bool kHold = HeldSums<Dim, Basis>::on;
+  constexpr auto offset = window_offset<Dim, Basis>;
+  std::int32_t cell = held.cell;
+  NodePart mine[kHold ? T : 1];  // a part of its own, so that it may stay in registers
+  if constexpr (kHold) unroll<T>([&](auto n) { mine[n] = held.sum[kPart][n]; });
+  for (int k = 0; k < count; ++k) {
+    NodePart* at = sums + kNodeParts * s.at[k] + kPart;
+    if constexpr (kHold) {
+      if (s.at[k] != cell) {
+        NodePart* before = sums + kNodeParts * cell + kPart;
+        if (cell >= 0) unroll<T>([&](auto n) { before[offset(n)] = mine[n]; });
+        unroll<T>([&](auto n) { mine[n] = at[offset(n)]; });
+        cell = s.at[k];
+      }
+    }
+    const auto target = [&](auto n) __attribute__((always_inline))->NodePart& {
+      if constexpr (kHold)
+        return mine[n];
+      else
+        return at[offset(n)];
+    };
+    give_to_nodes<kPart, Dim, Basis>(lanes, give.part[kPart], k, target);
+  }
+  if constexpr (kHold) unroll<T>([&](auto n) { held.sum[kPart][n] = mine[n]; });
+}
+
 /// The points of a tile into its `window` (kWindowNodes). With Scatter::force `mean_change` is
 /// added to the normal stresses of each point of the tile: what F-bar does to the force. With
 /// Scatter::velocity `velocity` is what the points have.
@@ -179,20 +228,12 @@ template <int Dim, class Basis, Scatter kScatter>
 [[gnu::flatten]] void scatter_tile(const Points<Dim>& p, const Tile<Dim>& tile,
                                    const double* mean_change, const TileVelocity<Dim>* velocity,
                                    const Grid<Dim>& grid, NodeVector* window) noexcept {
-  constexpr int N = Basis::nodes, W = kLocalWidth<Dim, Basis>, T = power<Dim>(N);
-  // Sums of the nodes of one point stay in registers while points of the same cell follow.
-  constexpr bool kHold = T <= 16;
   constexpr int kParts = Contributions<Dim>::parts;
   std::memset(static_cast<void*>(window), 0, sizeof(NodeVector) * kWindowNodes<Dim, Basis>);
   auto* sums = reinterpret_cast<NodePart*>(window);
-  constexpr auto offset = [](int n) {
-    return kNodeParts * (n % N + W * (n / N % N) + W * W * (n / (N * N)));
-  };
   const double h = grid.h, inverse = 1.0 / h;
   const std::array<double, Dim> corner = window_corner<Dim>(tile);
-
-  NodePart held[kParts][kHold ? T : 1];
-  std::int32_t current = -1;
+  HeldSums<Dim, Basis> held;
   for (std::int32_t q = tile.first; q < tile.last; q += Pack::lanes) {
     const int count = std::min<std::int32_t>(Pack::lanes, tile.last - q);
     Stencil<Dim, Basis> s;
@@ -209,36 +250,15 @@ template <int Dim, class Basis, Scatter kScatter>
                                      LaneStencil<Dim, Basis>>;
     const Lanes lanes(s);
     unroll<kParts>([&](auto part) __attribute__((always_inline)) {
-      std::int32_t now = current;
-      NodePart mine[kHold ? T : 1];  // in registers, as a part of its own
-      if constexpr (kHold) unroll<T>([&](auto n) { mine[n] = held[part][n]; });
-      for (int k = 0; k < count; ++k) {
-        NodePart* at = sums + kNodeParts * s.at[k] + part;
-        if constexpr (kHold) {
-          if (s.at[k] != now) {
-            NodePart* before = sums + kNodeParts * now + part;
-            if (now >= 0) unroll<T>([&](auto n) { before[offset(n)] = mine[n]; });
-            unroll<T>([&](auto n) { mine[n] = at[offset(n)]; });
-            now = s.at[k];
-          }
-        }
-        const auto target = [&](auto n) __attribute__((always_inline))->NodePart& {
-          if constexpr (kHold)
-            return mine[n];
-          else
-            return at[offset(n)];
-        };
-        give_to_nodes<part, Dim, Basis>(lanes, give.part[part], k, target);
-      }
-      if constexpr (kHold) unroll<T>([&](auto n) { held[part][n] = mine[n]; });
+      give_part<part, Dim, Basis>(s, count, lanes, give, held, sums);
     });
-    current = s.at[count - 1];
+    held.cell = s.at[count - 1];
   }
-  if constexpr (kHold)
-    if (current >= 0)
+  if constexpr (held.on)
+    if (held.cell >= 0)
       unroll<kParts>([&](auto part) {
-        NodePart* at = sums + kNodeParts * current + part;
-        unroll<T>([&](auto n) { at[offset(n)] = held[part][n]; });
+        NodePart* at = sums + kNodeParts * held.cell + part;
+        unroll<held.nodes>([&](auto n) { at[window_offset<Dim, Basis>(n)] = held.sum[part][n]; });
       });
 }
 

@@ -94,11 +94,11 @@ TEST_CASE("a missing recorder is named with its line and its folder", "[cli]") {
 TEST_CASE("warnings of an import are on the terminal, in the result, and told again", "[cli]") {
   const Scratch scratch;
   write_model(scratch);
-  scratch.write("stress.out", "0.1 -4 -8 0\n");
+  scratch.write("stress.out", "0.1 -40 -80 0\n");
   Outcome o = run(scratch, shake());
   CHECK(o.code == 0);
   CHECK(o.err.empty());  // control
-  scratch.write("stress.out", "0.1 -10000 -20000 0\n");
+  scratch.write("stress.out", "0.1 -100000 -200000 0\n");
   o = run(scratch, shake());
   CHECK(o.code == 0);
   CHECK_THAT(o.err, Catch::StartsWith("warning: shake: gravity: total vertical stress grows by"));
@@ -114,7 +114,7 @@ TEST_CASE("warnings of an import are on the terminal, in the result, and told ag
 TEST_CASE("lines fit the terminal", "[cli]") {
   const Scratch scratch;
   write_model(scratch);
-  scratch.write("stress.out", "0.1 -10000 -20000 0\n");
+  scratch.write("stress.out", "0.1 -100000 -200000 0\n");
   REQUIRE(run(scratch, shake()).code == 0);
   const std::string run_again =
       "run w.yaml --out out --set stages.shake.with.sigma_zz.rule=elastic --set "

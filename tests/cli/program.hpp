@@ -60,10 +60,10 @@ inline std::string on_terminal(const Scratch& scratch, const std::string& argume
 
 /// One element of 1 m x 1 m at rest: enough to import.
 inline void write_model(const Scratch& scratch) {
-  scratch.write("nodes.txt", "1 0 0\n2 1 0\n3 1 1\n4 0 1\n");
+  scratch.write("nodes.txt", "1 0 0\n2 10 0\n3 10 10\n4 0 10\n");
   scratch.write("elements.txt", "1 1 2 3 4 1\n");
-  scratch.write("stress.out", "0.1 -10 -20 0\n");
-  scratch.write("pressure.out", "0.1 5 5 0 0\n");
+  scratch.write("stress.out", "0.1 -100 -200 0\n");
+  scratch.write("pressure.out", "0.1 50 50 0 0\n");
 }
 
 inline std::string shake(const std::string& units = "{length: m, time: s, stress: kPa}") {

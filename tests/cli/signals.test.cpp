@@ -75,7 +75,7 @@ TEST_CASE("a reader that goes away loses no result", "[cli]") {
 TEST_CASE("warnings that cannot be written are not passed over", "[cli]") {
   const Scratch scratch;
   write_model(scratch);
-  scratch.write("stress.out", "0.1 -4 -8 0\n");
+  scratch.write("stress.out", "0.1 -40 -80 0\n");
   scratch.write("w.yaml", "schema: 1\nname: w\nstages:\n" + shake());
   const auto without_errors = [&] {
     const std::string command = "cd '" + scratch.path().string() +
@@ -83,7 +83,7 @@ TEST_CASE("warnings that cannot be written are not passed over", "[cli]") {
     return WEXITSTATUS(std::system(command.c_str()));
   };
   CHECK(without_errors() == 0);  // control: it has nothing to say
-  scratch.write("stress.out", "0.1 -10000 -20000 0\n");
+  scratch.write("stress.out", "0.1 -100000 -200000 0\n");
   CHECK(without_errors() == 4);
 }
 

@@ -42,6 +42,7 @@ stages:
           permeability: [1e-5 m/s, 1e-5 m/s]
           pm4sand: {Dr: 0.35, G0: 476, hpo: 0.53}
       water: {table: [[0 m, 6 m]]}
+      output_interval: 0.25 s
       base: {motion: within}
 )";
 
