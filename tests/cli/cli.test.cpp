@@ -344,10 +344,10 @@ TEST_CASE("files are converted by kind and ending", "[cli]") {
   CHECK(call(scratch, "convert tables mesh.h5").code == 0);
   CHECK(call(scratch, "convert mesh.h5 mesh.vtu").code == 0);
   CHECK(call(scratch, "convert mesh.h5 again").code == 0);
-  CHECK(read_text_file(scratch / "again/nodeinfo.dat") == "1 0 0\n2 1 0\n3 1 1\n4 0 1\n");
+  CHECK(read_text_file(scratch / "again/nodeinfo.dat") == "1 0 0\n2 10 0\n3 10 10\n4 0 10\n");
   const Outcome history = call(scratch, "convert out/stages/shake/*/history.h5 recorders/");
   CHECK(history.code == 0);
-  CHECK(read_text_file(scratch / "recorders/GporePressure.out") == "0 5 5 0 0\n");
+  CHECK(read_text_file(scratch / "recorders/GporePressure.out") == "0 50 50 0 0\n");
   scratch.write("record.txt", "0 0\n0.01 0.1\n0.02 -0.1\n0.03 0\n");
   CHECK(call(scratch, "convert record.txt motion.h5 --unit g").code == 0);
   CHECK(call(scratch, "convert motion.h5 motion.csv").code == 0);
