@@ -11,8 +11,8 @@ constexpr double kGain = 1.1;  ///< a trial must be faster by this to be kept; b
 /// Batches between trials: the first, doubled by each trial in vain up to the last, so that trials
 /// of three times slower counts cost at most a few per cent.
 constexpr int kFirstPause = 5, kLongestPause = 80;
-/// Times in a batch that a thread had to leave its core: on a quiet machine 0 to 2, with one busy
-/// program beside two threads 10 to 40.
+/// Times in a batch that a thread had to leave its core: two threads on two cores 2 on a quiet
+/// machine and 60 to 90 beside a busy program (a runout of 34,000 points).
 constexpr std::int64_t kDisturbed = 5;
 
 std::int64_t involuntary_switches() {

@@ -307,6 +307,7 @@ FemFacts run_fem(const SectionMesh& section, const GroundMotion& motion, const F
   shaking.show_states_before();
   facts.seconds = shaking.seconds_before +
                   run_to_end(shaking, std::max(1, threads), paths.checkpoint, progress);
+  omp_set_num_threads(std::max(1, threads));  // of whatever comes after it
   facts.stopped = shaking.stopped;
   facts.stopped_by_rule = shaking.stopped_by_rule;
   summarise(s, run, facts);

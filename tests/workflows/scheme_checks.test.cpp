@@ -182,6 +182,9 @@ TEST_CASE("Damping and tolerances that hide the shaking are seen") {
   };
   CHECK(shaken([](FemConfig& c) { c.damping.ratio = 0.05; }).empty());
   CHECK_THAT(shaken([](FemConfig& c) { c.damping.ratio = 0.5; }), Contains("of critical at 1 Hz"));
+  CHECK(shaken([](FemConfig& c) { c.damping.largest_ratio = 1.0; }).empty());
+  CHECK_THAT(shaken([](FemConfig& c) { c.damping.largest_ratio = 0.01; }),
+             Contains("damping.largest_ratio: 0.01"));
   CHECK_THAT(shaken([](FemConfig& c) { c.damping.mass = 1e3, c.damping.stiffness = 0.0; }),
              Contains("of critical at 1 Hz"));
   const auto loose = [](FemConfig& c) {

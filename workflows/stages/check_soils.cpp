@@ -138,6 +138,12 @@ void check_fem_scheme(const FemConfig& fem, Findings& found) {
         "damping: {:.2g} of critical at 1 Hz, beside what the soil's law has of its own; soil has "
         "0.005 to 0.05 at small strain. So much takes the shaking away that liquefies the soil.",
         ratio));
+  constexpr double kLeastRatio = 0.5;
+  if (fem.damping.largest_ratio.value_or(1.0) < kLeastRatio)
+    found.warnings.push_back(fmt::format(
+        "damping.largest_ratio: {:g} of critical in its fastest motion takes stiffness damping "
+        "from most elements, not from thin ones alone. Take 1.",
+        *fem.damping.largest_ratio));
   constexpr double kLoose = 0.01;
   if (fem.integration.scheme == IntegrationScheme::implicit && fem.integration.tolerance > kLoose)
     found.warnings.push_back(fmt::format(

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace flowslide {
 namespace {
@@ -50,7 +51,9 @@ double smallest_height(const QuadMesh& mesh) {
 /// waves across the height of an element.
 double stable_step(double height, const FemDampingConfig& damping) {
   const double undamped = height / kSaturatedWave, dry = 2.0 * kDryWave / height;
-  const double a = 0.25 * fem::rayleigh(damping).stiffness * dry * dry;
+  const double most = damping.largest_ratio ? 2.0 * *damping.largest_ratio / dry
+                                            : std::numeric_limits<double>::infinity();
+  const double a = 0.25 * std::min(fem::rayleigh(damping).stiffness, most) * dry * dry;
   return 1.0 / (a + std::sqrt(a * a + 1.0 / (undamped * undamped)));
 }
 
