@@ -56,7 +56,8 @@ TEST_CASE("The damping of Newmark's method comes on top of the soil's", "[fem]")
   const auto soil = last("soil");
   c.damping.like_newmark = LikeNewmarkConfig{.gamma = 0.75, .step = 4e-3};
   const auto both = last("both");
-  c.damping = {.mass = 0.0, .stiffness = 1e-3 + 0.25 * 4e-3, .like_newmark = {}};
+  c.damping = {
+      .mass = 0.0, .stiffness = 1e-3 + 0.25 * 4e-3, .like_newmark = {}, .largest_ratio = {}};
   CHECK(both == last("factor"));
   CHECK(both != soil);
 }
