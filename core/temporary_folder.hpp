@@ -12,7 +12,7 @@ class TemporaryFolder {
   TemporaryFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "flowslide-XXXXXX").string();
     if (!::mkdtemp(name.data()))
-      throw FileError(fmt::format("the folder '{}' cannot be made", name));
+      throw FileError("the folder '" + name + "' cannot be made");
     path_ = name;
   }
   ~TemporaryFolder() {
@@ -23,6 +23,7 @@ class TemporaryFolder {
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
   [[nodiscard]] std::filesystem::path operator/(const char* name) const { return path_ / name; }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
  private:
   std::filesystem::path path_;
