@@ -47,7 +47,7 @@ template <int Dim, class Basis, class Fetch>
   constexpr int N = Basis::nodes, W = kLocalWidth<Dim, Basis>;
   NodeSums<Dim> r;
   Pack s_u = 0, s_x = 0, s_y = 0, s_z = 0, g_x = 0, g_y = 0, g_z = 0;
-  unroll<(Dim == 3 ? N : 1)>([&](auto l) __attribute__((always_inline)) {
+  each_layer<Dim, N>([&](auto l) __attribute__((always_inline)) {
     Pack t_u = 0, t_x = 0, t_y = 0, t_gx = 0, t_gy = 0;
     unroll<N>([&](auto j) __attribute__((always_inline)) {
       Pack a = 0, ax = 0, ag = 0;
@@ -70,7 +70,7 @@ template <int Dim, class Basis, class Fetch>
       s_y += s.w[2][l] * t_y;
       g_x += s.w[2][l] * t_gx;
       g_y += s.w[2][l] * t_gy;
-      if constexpr (l > 0) s_z += double(l) * (s.w[2][l] * t_u);
+      if (l > 0) s_z += double(l) * (s.w[2][l] * t_u);
       g_z += s.g[2][l] * t_u;
     } else {
       s_u = t_u, s_x = t_x, s_y = t_y, g_x = t_gx, g_y = t_gy;
@@ -89,11 +89,13 @@ template <int Dim, class Basis, class Fetch>
                                                const double* v) noexcept {
   constexpr int N = Basis::nodes, W = kLocalWidth<Dim, Basis>;
   Pack sum = 0.0;
-  unroll<power<Dim>(N)>([&](auto n) __attribute__((always_inline)) {
-    constexpr int i = n % N, j = n / N % N, l = n / (N * N);
-    Pack weight = s.w[0][i] * s.w[1][j];
-    if constexpr (Dim == 3) weight *= s.w[Dim - 1][l];
-    sum += weight * fetch(v + (i + W * j + W * W * l));
+  each_layer<Dim, N>([&](auto l) __attribute__((always_inline)) {
+    unroll<N * N>([&](auto n) __attribute__((always_inline)) {
+      constexpr int i = n % N, j = n / N;
+      Pack weight = s.w[0][i] * s.w[1][j];
+      if constexpr (Dim == 3) weight *= s.w[Dim - 1][l];
+      sum += weight * fetch(v + (i + W * j + W * W * l));
+    });
   });
   return sum;
 }

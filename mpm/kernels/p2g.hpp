@@ -96,7 +96,8 @@ struct LaneStencil {
   }
 };
 
-/// What point `k` of a pack gives to a part of the nodes of its stencil; `target(n)` is node n.
+/// What point `k` of a pack gives to a part of the nodes of its stencil; `target(n, l)` is node n
+/// of layer l.
 template <int kPart, int Dim, class Basis, class Target>
 [[gnu::always_inline]] inline void give_to_nodes(const LaneStencil<Dim, Basis>& s,
                                                  const typename Contributions<Dim>::Part& give,
@@ -116,12 +117,12 @@ template <int kPart, int Dim, class Basis, class Target>
   if constexpr (Dim == 2) {
     unroll<N>([&](auto j) __attribute__((always_inline)) {
       unroll<N>([&](auto i) __attribute__((always_inline)) {
-        target(std::integral_constant<int, i + N * j>{}) +=
+        target(std::integral_constant<int, i + N * j>{}, 0) +=
             w[1][j][k] * row[i] + w[0][i][k] * column[j];
       });
     });
   } else {
-    unroll<N>([&](auto l) __attribute__((always_inline)) {
+    each_layer<Dim, N>([&](auto l) __attribute__((always_inline)) {
       const double wz = w[Dim - 1][l][k];
       const NodePart layer = weight_and_gradient<Dim, kPart>(double(l) * wz, g[Dim - 1][l][k]) *
                              give.other[Dim - 2][k];
@@ -129,8 +130,7 @@ template <int kPart, int Dim, class Basis, class Target>
         const double wy = w[1][j][k], wyz = wy * wz;
         const NodePart rest = wz * column[j] + wy * layer;
         unroll<N>([&](auto i) __attribute__((always_inline)) {
-          target(std::integral_constant<int, i + N * j + N * N * l>{}) +=
-              wyz * row[i] + w[0][i][k] * rest;
+          target(std::integral_constant<int, i + N * j>{}, l) += wyz * row[i] + w[0][i][k] * rest;
         });
       });
     });
@@ -163,12 +163,14 @@ template <int kPart, int Dim, class Basis, class Target>
     row[i] = give.a[k];
     if constexpr (i > 0) row[i] += double(i) * give.b[k];
   });
-  unroll<power<Dim>(N)>([&](auto n) __attribute__((always_inline)) {
-    constexpr int i = n % N, j = n / N % N, l = n / (N * N);
-    NodePart value = row[i];
-    if constexpr (j > 0) value += double(j) * give.other[0][k];
-    if constexpr (l > 0) value += double(l) * give.other[Dim - 2][k];
-    target(n) += s.w[n][k] * value;
+  each_layer<Dim, N>([&](auto l) __attribute__((always_inline)) {
+    unroll<N * N>([&](auto n) __attribute__((always_inline)) {
+      constexpr int i = n % N, j = n / N;
+      NodePart value = row[i];
+      if constexpr (j > 0) value += double(j) * give.other[0][k];
+      if (l > 0) value += double(l) * give.other[Dim - 2][k];
+      target(n, l) += s.w[n + N * N * l][k] * value;
+    });
   });
 }
 
@@ -210,11 +212,12 @@ template <int kPart, int Dim, class Basis, class Lanes>
         cell = s.at[k];
       }
     }
-    const auto target = [&](auto n) __attribute__((always_inline))->NodePart& {
+    const auto target = [&](auto n, auto layer) __attribute__((always_inline))->NodePart& {
+      constexpr int N = Basis::nodes, W = kLocalWidth<Dim, Basis>;
       if constexpr (kHold)
-        return mine[n];
+        return mine[n + N * N * layer];
       else
-        return at[offset(n)];
+        return at[offset(n) + kNodeParts * W * W * layer];
     };
     give_to_nodes<kPart, Dim, Basis>(lanes, give.part[kPart], k, target);
   }

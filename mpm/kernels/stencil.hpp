@@ -18,6 +18,17 @@ struct Stencil {
   }
 };
 
+/// Calls f(l) for the N layers of a stencil, one in the plane. Layers of nine or sixteen nodes are
+/// a loop: written out they take up to four times as long to compile, and run no faster.
+template <int Dim, int N, class F>
+[[gnu::always_inline]] inline void each_layer(F&& f) noexcept {
+  if constexpr (Dim == 3 && N > 2) {
+    for (int l = 0; l < N; ++l) f(l);
+  } else {
+    unroll<(Dim == 3 ? N : 1)>(f);
+  }
+}
+
 /// How values at the nodes of eight points are fetched. Points follow one another by cell, so that
 /// most Packs hold points of two to four cells: as many broadcasts as cells, merged by masks, cost
 /// a fraction of a gather of eight addresses.
