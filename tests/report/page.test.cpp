@@ -85,10 +85,11 @@ struct PageCase {
   std::vector<std::string> warnings;
   std::vector<ToldStage> stages;
   std::optional<GroundMotion> motion;
+  dam_case::Flow moves;
 
   PageCase() { scratch.write("audit.json", kAudit); }
   [[nodiscard]] std::string page() const {
-    dam_case::write_flow(scratch / "mpm.h5", particles, {});
+    dam_case::write_flow(scratch / "mpm.h5", particles, moves);
     dam_case::write_history(scratch / "history.h5", true);
     const FemHistory history(scratch / "history.h5");
     const MpmHistory flow(scratch / "mpm.h5");
@@ -352,5 +353,6 @@ TEST_CASE("Child of the browser test: writes a page", "[.page-child]") {
                "{}"}};
   const char* out = std::getenv("FLOWSLIDE_PAGE");
   REQUIRE(out);
+  if (const char* end = std::getenv("FLOWSLIDE_PAGE_END")) c.moves.end = std::stod(end);
   std::ofstream(out) << c.page();
 }

@@ -1,0 +1,96 @@
+#include "study/page/explorer_data.hpp"
+#include "tests/study/study_bench.hpp"
+
+#include <cstdlib>
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+using namespace flowslide;
+using namespace flowslide::study;
+using namespace flowslide::study::sample;
+using Catch::Contains;
+
+namespace {
+
+/// sum = factor * (one + 2), not known in the first three rows, its factor disturbed by a
+/// thousandth.
+const std::string kExplored =
+    "  set: {stages.count.with.steps: 1, stages.sum.with.factor: 1}\n"
+    "  vary:\n"
+    "    one: {setting: stages.one.with.value, values: [1, 2, 3, 4], labels: [a, b, \"</script>\", "
+    "d]}\n"
+    "    factor: {setting: stages.sum.with.factor, values: [1, 2]}\n"
+    "  repeat: {count: 3, scale: {stages.sum.with.factor: 1e-3}}\n"
+    "  analysis: {results: [sum]}\n";
+
+struct Explored {
+  StudyBench bench;
+  Plan plan;
+  Table table;
+  StudyAbout about;
+
+  Explored() : plan(bench.plan(kExplored)) {
+    bench.run(plan);
+    table = make_table(plan, bench.progress(plan));
+    for (std::size_t k = 0; k < table.columns.size(); ++k)
+      if (Column& c = table.columns[k]; c.name == "sum")
+        for (std::size_t row = 0; row < 3; ++row) {
+          c.number[row] = kUnset;
+          c.text[row] = "";
+        }
+    about.reports.resize(table.rows);
+  }
+  [[nodiscard]] std::string page() const {
+    return make_page(plan, table, analyse(plan, table), about).html;
+  }
+};
+
+const nlohmann::json& column(const nlohmann::json& data, const std::string& name) {
+  for (const auto& c : data["columns"])
+    if (c["name"] == name) return c;
+  FAIL("there is no column " + name);
+  return data;
+}
+
+}  // namespace
+
+TEST_CASE("The chart of a page has the table's numbers, and which rows are repeats", "[study]") {
+  Explored e;
+  e.about.reports[4] = "run.html";
+  const auto data = nlohmann::json::parse(
+      explorer_json(e.plan, e.table, analyse(e.plan, e.table), e.about, {"factor", "sum", "one"}));
+  CHECK(data["labels"].size() == 24);
+  CHECK(data["pages"][4] == "run.html");
+  CHECK(data["pages"][5] == "");
+  // three repeats of each of eight rows
+  CHECK(data["groups"][0] == data["groups"][2]);
+  CHECK(data["groups"][2] != data["groups"][3]);
+  const auto& sum = column(data, "sum");
+  CHECK(sum["group"] == "Results");
+  CHECK(sum["values"][0].is_null());
+  CHECK(sum["values"][3] == 6.0);
+  CHECK(sum["values"][4].get<double>() == Approx(6.006));
+  const auto& one = column(data, "one");
+  CHECK(one["group"] == "Inputs");
+  CHECK(one["words"] == nlohmann::json{"a", "b", "</script>", "d"});
+  CHECK(one["values"][6] == 1);
+  CHECK(data["start"]["colour"] == "one");
+}
+
+TEST_CASE("A label of a user ends no script of the page", "[study]") {
+  const std::string html = Explored().page();
+  const std::size_t data = html.find("id='study'>");
+  REQUIRE(data != std::string::npos);
+  const std::string rest = html.substr(data);
+  CHECK_THAT(rest.substr(0, rest.find("</script>")), Contains("\\u003c/script>"));
+}
+
+TEST_CASE("Child of the browser test: writes the page of a study", "[.page-child]") {
+  const char* out = std::getenv("FLOWSLIDE_PAGE");
+  REQUIRE(out);
+  Explored e;
+  for (std::size_t row = 0; row < e.table.rows; ++row)
+    e.about.reports[row] = row < 6 ? "" : row % 2 ? "long.html" : "short.html";
+  std::ofstream(out) << e.page();
+}
