@@ -62,6 +62,7 @@ async function start() {
     );
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
   printLight(redraw);
+  linkPlayer(player);
   document.documentElement.dataset.ready = "yes";
 }
 

@@ -143,6 +143,98 @@ def check_opening(page):
         == "left,right")
 
 
+def readout(page, side):
+    """What the player of a side says; a file may not look into another, the browser's tools may."""
+    return page.run_in(side, "document.querySelector('.readout').textContent")
+
+
+def time_of(page, side):
+    return float(readout(page, side).split()[2])
+
+
+def both(page):
+    return time_of(page, "left"), time_of(page, "right")
+
+
+def rule(page, value):
+    page.run(f"(() => {{ const s = document.querySelector('.together select'); s.value = '{value}'; "
+             "s.dispatchEvent(new Event('change')); })()")
+
+
+def scrub(page, side, time):
+    page.run_in(side, f"(() => {{ const s = document.querySelector('.bar input'); s.value = {time}; "
+                "s.dispatchEvent(new Event('input')); })()")
+
+
+def until(page, what, true):
+    for _ in range(100):
+        if true():
+            return expect(what, True)
+        page.run("new Promise(done => setTimeout(done, 50))")
+    return expect(f"{what} (never: {both(page)})", False)
+
+
+def open_both(page):
+    """The shorter run, of 20 s, on the left, the longer, of 40 s, on the right."""
+    for row, side, name in ((6, "left", "short.html"), (7, "right", "long.html")):
+        page.run(f"document.querySelector('#rows a[data-row=\"{row}\"][target={side}]').click()")
+        page.wait_in(side, f"location.pathname.endsWith('{name}') && "
+                     "document.documentElement.dataset.ready")
+    page.wait("!document.querySelector('.together input').disabled")
+
+
+def check_together(page):
+    open_both(page)
+    play = "document.querySelector('.play').click()"
+    scrub(page, "right", 12)
+    expect(f"players are apart {both(page)}", both(page) == (20, 12))
+    page.run("document.querySelector('.together input').click()")
+    until(page, "ticked, they show one time", lambda: both(page) == (20, 20))
+    scrub(page, "left", 7)
+    until(page, "one follows the other", lambda: both(page) == (7, 7))
+    scrub(page, "right", 30)
+    until(page, "the shorter waits at its end", lambda: both(page) == (20, 30))
+    page.run_in("right", "document.querySelector('.bar select').value = '50'; document"
+                ".querySelector('.bar select').dispatchEvent(new Event('change'))")
+    scrub(page, "right", 2)
+    until(page, "and is taken along", lambda: both(page) == (2, 2))
+    expect("so is the speed",
+           page.run_in("left", "document.querySelector('.bar select').value") == "50")
+    page.run_in("left", play)
+    until(page, "played from either side, both end", lambda: both(page) == (20, 40))
+    rule(page, "stop")
+    scrub(page, "left", 1)
+    until(page, "both stand at 1 s", lambda: both(page) == (1, 1))
+    page.run_in("right", play)
+    until(page, "or both stop where the shorter ends", lambda: both(page) == (20, 20))
+    expect("and stand", [page.run_in(s, "document.querySelector('.play').ariaLabel")
+                         for s in ("left", "right")] == ["Play", "Play"])
+    rule(page, "stretch")
+    scrub(page, "left", 5)
+    until(page, "or both take equally long", lambda: both(page) == (5, 10))
+    check_nonsense(page)
+    page.run("document.querySelector('.together input').click()")
+    scrub(page, "left", 3)
+    expect(f"apart again {both(page)}", both(page) == (3, 10))
+
+
+def check_nonsense(page):
+    nonsense = ("null", "7", "'flowslide-player'", "{}", "{kind: 'flowslide-player'}",
+                "{kind: 'flowslide-player', time: 'x', rate: 1, playing: false, lead: false}",
+                "{kind: 'flowslide-player', time: NaN, rate: 1, playing: false, lead: false}",
+                "{kind: 'flowslide-player', time: 1, rate: 3, playing: false, lead: false}",
+                "{kind: 'flowslide-player', time: 1, rate: 1, playing: 1, lead: false}")
+    for words in nonsense:
+        page.run(f"document.querySelector('iframe[name=left]').contentWindow.postMessage({words}, '*')")
+        page.run_in("left", f"parent.postMessage({words}, '*')")
+    page.run("new Promise(done => setTimeout(done, 300))")
+    expect(f"nonsense moves nothing {both(page)}", both(page) == (5, 10))
+    # control: the last one without its mistake
+    page.run("document.querySelector('iframe[name=left]').contentWindow.postMessage({kind: "
+             "'flowslide-player', time: 1, rate: 1, playing: false, lead: false}, '*')")
+    until(page, "control: an order does", lambda: both(page) == (1, 10))
+
+
 def main(test_study, test_report, pictures=None):
     chromium = find_chromium()
     if not chromium:
@@ -167,6 +259,7 @@ def main(test_study, test_report, pictures=None):
             check_choices(page)
             check_zoom(page)
             check_opening(page)
+            check_together(page)
             expect("the console is silent: " + "; ".join(page.said), not page.said)
     sys.exit(f"{len(failures)} failed" if failures else 0)
 

@@ -13,6 +13,8 @@ class Runs {
     this.box = document.getElementById("two");
     if (!this.box) return;
     this.box.hidden = true; // until a run is chosen; without scripts links open in it
+    this.together = new Together(this);
+    this.box.prepend(this.together.element);
     document.addEventListener("click", (event) => {
       const link = event.target.closest?.("a[data-row]");
       if (!link || event.ctrlKey || event.metaKey || event.button !== 0) return;
@@ -31,6 +33,7 @@ class Runs {
     this.rows[side] = row;
     this.box.hidden = false;
     this.box.querySelector(`[data-side=${side}]`).textContent = this.labels[row];
+    this.together.forget(side);
     this.frame(side).src = `${this.pages[row]}#the-flow`;
     this.onOpen();
   }
