@@ -92,6 +92,7 @@ std::string explorer_json(const Plan& plan, const Table& table, const StudyFindi
   for (const ExplorerJson& c : found) columns.push_back(c);
   const ExplorerJson json{{"labels", labels},
                           {"pages", pages},
+                          {"embedded", about.embedded.has_value()},
                           {"groups", group},
                           {"columns", columns},
                           {"start", {{"x", start.x}, {"y", start.y}, {"colour", start.colour}}}};

@@ -10,7 +10,8 @@ struct ExplorerStart {
   std::string x, y, colour;
 };
 
-/// JSON of all rows for the scripts of the page: {labels, pages, groups: which repeats belong
+/// JSON of all rows for the scripts of the page: {labels, pages, embedded:
+/// are they in this file, groups: which repeats belong
 /// together, columns: [{name, label, unit, group, ...}], start}. A column has its `values`, null
 /// where there is none, or the one that is the `same` in all rows; a column of words has them in
 /// `words` and their places as values. Numbers have six digits.

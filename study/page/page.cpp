@@ -47,6 +47,12 @@ class Writer {
 
   void head() {
     const std::string style = std::string(page_style()) + std::string(kStudyStyle);
+    // A page that is opened from memory is under the policy of this one too.
+    std::string scripts = policy_hash(kStudyScript), styles = policy_hash(style);
+    if (about_.embedded) {
+      for (const std::string& hash : about_.embedded->scripts) scripts += " " + hash;
+      for (const std::string& hash : about_.embedded->styles) styles += " " + hash;
+    }
     html_ += fmt::format(
         "<!doctype html><html lang='en'><head><meta charset='utf-8'>"
         "<meta http-equiv='Content-Security-Policy' content=\"default-src 'none'; script-src {}; "
@@ -54,7 +60,7 @@ class Writer {
         "form-action 'none'\"><meta name='viewport' "
         "content='width=device-width,initial-scale=1'><meta name='color-scheme' content='light "
         "dark'>",
-        policy_hash(kStudyScript), policy_hash(style));
+        scripts, styles);
     html_ += fmt::format(
         "<title>{0}</title><style>{1}</style>"
         "</head><body><a class='skip' href='#judgement'>To the answer</a><header><h1>{0}</h1>",
@@ -278,8 +284,10 @@ class Writer {
     html_ +=
         "<p>Click a point of the chart above, with Shift for the right, or choose <b>left</b> and "
         "<b>right</b> in <a href='#rows'>the table of all rows</a>: the pages of two runs stand "
-        "here, each with its player. They lie beside this file, in <code>stages</code>.</p>"
-        "<div class='two' id='two'>";
+        "here, each with its player. ";
+    html_ += about_.embedded ? "They are in this file"
+                             : "They lie beside this file, in <code>stages</code>";
+    html_ += fmt::format("{}.</p><div class='two' id='two'>", without_page());
     for (const char* side : {"left", "right"})
       html_ += fmt::format(
           "<div><p class='which' data-side='{0}'></p><iframe name='{0}' title='run on the {0}'>"
@@ -287,6 +295,14 @@ class Writer {
           side);
     html_ += "</div>";
     close();
+  }
+
+  /// ", but for 2 of 134 rows, of which no page was kept"; empty where every row has one.
+  [[nodiscard]] std::string without_page() const {
+    const auto without = std::count(about_.reports.begin(), about_.reports.end(), "");
+    return without == 0 ? ""
+                        : fmt::format(", but for {} of {} rows, which have none", without,
+                                      about_.reports.size());
   }
 
   /// A chart of the reader's own: the scripts draw it. It starts with what a figure shows as well.
@@ -310,11 +326,14 @@ class Writer {
   [[nodiscard]] std::string links(std::size_t row) const {
     const std::string to = row < about_.reports.size() ? about_.reports[row] : "";
     if (to.empty()) return "<td class='word'></td>";
+    // what is in this file has no address: the scripts open it
+    const std::string page = about_.embedded ? "#side-by-side" : xml_text(to);
+    const std::string flow = about_.embedded ? page : page + "#the-flow";
     return fmt::format(
-        "<td class='word'><a href='{0}' target='_blank'>page</a> <a href='{0}#the-flow' "
-        "target='left' data-row='{1}'>left</a> <a href='{0}#the-flow' target='right' "
-        "data-row='{1}'>right</a></td>",
-        xml_text(to), row);
+        "<td class='word'><a href='{0}' target='_blank' data-row='{2}'>page</a> <a href='{1}' "
+        "target='left' data-row='{2}'>left</a> <a href='{1}' target='right' "
+        "data-row='{2}'>right</a></td>",
+        page, flow, row);
   }
 
   void rows() {
@@ -362,9 +381,10 @@ class Writer {
     if (!about_.sessions.empty()) cost();
     close();
     html_ += fmt::format(
-        "</main><script type='application/json' id='study'>{}</script><script>{}</script></body>"
-        "</html>\n",
-        in_script(explorer_json(plan_, table_, f_, about_, explorer_start())), kStudyScript);
+        "</main><script type='application/json' id='study'>{}</script><script>{}</script>\n{}"
+        "</body></html>\n",
+        in_script(explorer_json(plan_, table_, f_, about_, explorer_start())), kStudyScript,
+        about_.embedded ? about_.embedded->elements : "");
   }
 
   void cost() {

@@ -20,6 +20,7 @@ class Browser:
     def __init__(self, program, seconds=120.0):
         self.seconds, self.count, self.said, self.buffer = seconds, 0, [], b""
         self.contexts = {}  # of scripts, by frame
+        self.sessions = {}  # of frames in a process of their own
         self.profile = tempfile.TemporaryDirectory(
             prefix="flowslide-browser-", ignore_cleanup_errors=True)
         to_browser, self.out = os.pipe()
@@ -42,6 +43,7 @@ class Browser:
         self.session = attached["sessionId"]
         for part in ("Page", "Runtime", "Log", "Network"):
             self.call(f"{part}.enable")
+        self.call("Target.setAutoAttach", autoAttach=True, waitForDebuggerOnStart=False, flatten=True)
 
     def __enter__(self):
         return self
@@ -84,17 +86,27 @@ class Browser:
             context = params["context"]
             if context["auxData"]["isDefault"]:
                 self.contexts[context["auxData"]["frameId"]] = context["id"]
+        elif method == "Target.attachedToTarget" and hasattr(self, "session"):
+            self.sessions[params["targetInfo"]["targetId"]] = params["sessionId"]
+            for part in ("Runtime", "Log", "Network"):
+                self.send(f"{part}.enable", params["sessionId"])
+        elif method == "Target.detachedFromTarget":
+            self.sessions = {f: s for f, s in self.sessions.items() if s != params["sessionId"]}
         elif method == "Network.requestWillBeSent":
             url = params["request"]["url"]
             if not url.startswith(("file:", "blob:", "data:", "about:")):
                 self.said.append(f"loads {url}")
 
-    def call(self, method, **params):
+    def send(self, method, session=None, **params):
         self.count += 1
         message = {"id": self.count, "method": method, "params": params}
-        if hasattr(self, "session"):
-            message["sessionId"] = self.session
+        if session or hasattr(self, "session"):
+            message["sessionId"] = session or self.session
         os.write(self.out, json.dumps(message).encode() + b"\0")
+        return message
+
+    def call(self, method, session=None, **params):
+        message = self.send(method, session, **params)
         until = time.monotonic() + self.seconds
         while time.monotonic() < until:
             answer = self.receive()
@@ -114,8 +126,11 @@ class Browser:
 
     def run_in(self, name, code):
         """The same in a frame of the page, by its name."""
-        frames = self.call("Page.getFrameTree")["frameTree"].get("childFrames", [])
-        frame = next(f["frame"]["id"] for f in frames if f["frame"].get("name") == name)
+        element = self.call("Runtime.evaluate", expression=f"document.getElementsByName('{name}')[0]")
+        node = self.call("DOM.describeNode", objectId=element["result"]["objectId"])
+        frame = node["node"]["frameId"]
+        if frame in self.sessions:
+            return self.run(code, session=self.sessions[frame])
         return self.run(code, contextId=self.contexts[frame])
 
     def wait(self, code, run=None):

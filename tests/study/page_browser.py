@@ -29,9 +29,10 @@ def write_pages(folder, test_study, test_report):
     def write(program, name, **more):
         subprocess.run([program, "[.page-child]"], check=True, stdout=subprocess.DEVNULL,
                        env={**os.environ, "FLOWSLIDE_PAGE": str(folder / name), **more})
-    write(test_study, "study.html")
     write(test_report, "long.html", FLOWSLIDE_PAGE_END="40")
     write(test_report, "short.html", FLOWSLIDE_PAGE_END="20")
+    write(test_study, "study.html")
+    write(test_study, "whole.html", FLOWSLIDE_WHOLE="yes")
 
 
 def choose(page, which, value):
@@ -174,17 +175,18 @@ def until(page, what, true):
     return expect(f"{what} (never: {both(page)})", False)
 
 
-def open_both(page):
+def open_both(page, names=None):
     """The shorter run, of 20 s, on the left, the longer, of 40 s, on the right."""
-    for row, side, name in ((6, "left", "short.html"), (7, "right", "long.html")):
+    for row, side in ((6, "left"), (7, "right")):
         page.run(f"document.querySelector('#rows a[data-row=\"{row}\"][target={side}]').click()")
-        page.wait_in(side, f"location.pathname.endsWith('{name}') && "
-                     "document.documentElement.dataset.ready")
+        where = f"location.pathname.endsWith('{names[row - 6]}')" if names else (
+            "location.href.startsWith('about:srcdoc')")
+        page.wait_in(side, f"{where} && document.documentElement.dataset.ready")
     page.wait("!document.querySelector('.together input').disabled")
 
 
 def check_together(page):
-    open_both(page)
+    open_both(page, ("short.html", "long.html"))
     play = "document.querySelector('.play').click()"
     scrub(page, "right", 12)
     expect(f"players are apart {both(page)}", both(page) == (20, 12))
@@ -235,6 +237,37 @@ def check_nonsense(page):
     until(page, "control: an order does", lambda: both(page) == (1, 10))
 
 
+def check_whole(page):
+    """The pages of runs are in the file, and no other is there."""
+    expect("no page is unpacked", page.run("document.querySelectorAll('iframe[src]').length") == 0)
+    open_both(page)
+    expect(f"runs open from memory {both(page)}", both(page) == (20, 40))
+    expect("their text is there", page.run_in("left", "document.querySelector('h1').textContent")
+           == 'Dam <of> the "test" & more')
+    expect("rows without a run are told", "but for 6 of 24 rows" in page.run(
+        "document.getElementById('side-by-side').textContent"))
+    page.run("document.querySelector('.together input').click()")
+    scrub(page, "right", 7)
+    until(page, "and play together", lambda: both(page) == (7, 7))
+    page.run_in("left", "window.before = true")
+    page.run("document.querySelector('#explore').scrollIntoView({behavior: 'instant'})")
+    click(page, *sorted(dots(page))[1])
+    page.wait_in("left", "!window.before && document.documentElement.dataset.ready")
+    expect("a click on a point opens another", "</script>" in page.run(
+        "document.querySelector('[data-side=left]').textContent"))
+    top = "document.getElementById('histories').getBoundingClientRect().top"
+    expect("at its flow", 0 <= page.run_in("left", top.replace("histories", "the-flow")) < 100)
+    expect("not at its histories", page.run_in("left", top) > 300)
+    page.run_in("left", "document.querySelector('nav a[href=\"#histories\"]').click()")
+    expect("a link within it leads there", page.run_in("left", top) < 100)
+    page.run("window.open = (open => (...a) => window.tab = open.apply(window, a))(window.open)")
+    page.run("document.querySelector('#rows a[target=_blank]').click()", userGesture=True)
+    page.wait("window.tab?.document.documentElement?.dataset.ready")
+    expect("a run has a tab of its own", page.run("tab.document.documentElement.dataset.ready")
+           == "yes" and "</script>" not in page.run("tab.document.title"))
+    page.run("tab.close()")
+
+
 def main(test_study, test_report, pictures=None):
     chromium = find_chromium()
     if not chromium:
@@ -260,6 +293,13 @@ def main(test_study, test_report, pictures=None):
             check_zoom(page)
             check_opening(page)
             check_together(page)
+            alone = folder / "alone"
+            alone.mkdir()
+            (folder / "whole.html").rename(alone / "whole.html")
+            page.call("Network.emulateNetworkConditions", offline=True, latency=0,
+                      downloadThroughput=0, uploadThroughput=0)
+            page.open(alone / "whole.html", 1280)
+            check_whole(page)
             expect("the console is silent: " + "; ".join(page.said), not page.said)
     sys.exit(f"{len(failures)} failed" if failures else 0)
 

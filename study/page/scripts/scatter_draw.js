@@ -53,7 +53,7 @@ Object.assign(Scatter.prototype, {
       right = left + this.wide;
     const line = (kind, x1, y1, x2, y2) => out.push(draw("line", { class: kind, x1, y1, x2, y2 }));
     const text = (words, attributes) => out.push(draw("text", attributes, words));
-    const xs = ticks(...this.range[0], Math.max(3, this.wide / 75)),
+    const xs = ticks(...this.range[0], Math.max(3, this.wide / 62)),
       ys = ticks(...this.range[1], Math.max(4, this.high / 50));
     for (const v of xs) {
       line(v === 0 ? "zero" : "grid", this.px(v), this.top, this.px(v), bottom);

@@ -3,7 +3,7 @@
 function start() {
   const data = JSON.parse(document.getElementById("study").textContent);
   const rows = new Rows(data),
-    runs = new Runs(rows);
+    runs = new Runs(rows, data.embedded);
   const place = document.getElementById("explorer");
   let explorer = null;
   if (rows.find(data.start.x) && rows.find(data.start.y)) {
