@@ -298,7 +298,7 @@ void add_study(CLI::App& app, Command& action) {
   const auto [report_command, report_args] =
       on_folder("report", "Write tables, figures and page again", report_study);
   report_command->add_flag("--whole", report_args->whole,
-                           "also study-whole.html, one file with the pages of all runs in it");
+                           "also study-whole.html, with all runs in it");
   report_command
       ->add_option("--frames", report_args->frames, "states of each player in it, at most [all]")
       ->check(CLI::Range(2, 1000))

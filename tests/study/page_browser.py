@@ -58,8 +58,14 @@ def click(page, x, y, **more):
         page.point_at(x, y, kind, button="left", clickCount=1, **more)
 
 
-def check_explorer(page):
+def show_explorer(page):
+    """A finger touches what was drawn last: wait for it."""
     page.run("document.getElementById('explore').scrollIntoView({behavior: 'instant'})")
+    page.run("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+
+def check_explorer(page):
+    show_explorer(page)
     # Eight rows with three repeats; the results of the first three rows are not known.
     expect("repeats are one point", len(dots(page)) == 7)
     expect("their scatter is a bar", page.run(
@@ -142,6 +148,22 @@ def check_opening(page):
     expect("what is open is marked", page.run(
         "[...document.querySelectorAll('.scatter .opentext')].map(e => e.textContent).join()")
         == "left,right")
+
+
+def check_touch(page):
+    """A finger chooses a point; buttons below the chart open its run."""
+    show_explorer(page)
+    x, y = sorted(dots(page))[1]
+    page.call("Input.dispatchTouchEvent", type="touchStart", touchPoints=[{"x": x, "y": y}])
+    page.call("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
+    page.wait("document.querySelector('.chosen button') !== null")
+    told = page.run("document.querySelector('.chosen').innerText")
+    expect(f"a finger chooses a point ({told})", "factor 1" in told and "left right" in told)
+    expect("and opens nothing by itself", frame_source(page, "left") == "")
+    page.run("document.querySelectorAll('.chosen button')[1].click()")
+    expect("its buttons do", "html#the-flow" in frame_source(page, "right"))
+    expect("beside nothing too wide", page.run(
+        "document.documentElement.scrollWidth <= innerWidth"))
 
 
 def readout(page, side):
@@ -250,7 +272,7 @@ def check_whole(page):
     scrub(page, "right", 7)
     until(page, "and play together", lambda: both(page) == (7, 7))
     page.run_in("left", "window.before = true")
-    page.run("document.querySelector('#explore').scrollIntoView({behavior: 'instant'})")
+    show_explorer(page)
     click(page, *sorted(dots(page))[1])
     page.wait_in("left", "!window.before && document.documentElement.dataset.ready")
     expect("a click on a point opens another", "</script>" in page.run(
@@ -287,6 +309,8 @@ def main(test_study, test_report, pictures=None):
                     "document.documentElement.scrollWidth <= innerWidth"))
                 if pictures:
                     page.picture(pathlib.Path(pictures, f"study-{name}.png"))
+            page.open(folder / "study.html", 390, phone=True)
+            check_touch(page)
             page.open(folder / "study.html", 1280)
             check_explorer(page)
             check_choices(page)
