@@ -3,6 +3,7 @@
 #include "cli/study_batch.hpp"
 #include "cli/study_display.hpp"
 #include "cli/study_pool.hpp"
+#include "cli/terminal.hpp"
 #include "cli/usage.hpp"
 #include "core/check.hpp"
 #include "core/files.hpp"
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -34,8 +36,8 @@ constexpr int kRowsFailed = 1;
 
 struct StudyArguments {
   std::string file, out, executor = "local";
-  int jobs = 0, threads = 0;
-  bool dry_run = false, quiet = false, json = false, retry = false;
+  int jobs = 0, threads = 0, frames = 0;
+  bool dry_run = false, quiet = false, json = false, retry = false, whole = false;
   std::vector<std::string> allowed_programs;
 };
 
@@ -185,11 +187,58 @@ int table(const StudyArguments& args) {
   return 0;
 }
 
+/// What is missing of the whole page, and how it comes in.
+void tell_missing(const study::WholePage& whole, const study::Plan& plan, const fs::path& folder) {
+  if (!whole.not_done.empty())
+    print_warning(
+        fmt::format("{} of {} rows have no run in it because they are not done (rows {}). "
+                    "Run the study again: flowslide study run {}",
+                    whole.not_done.size(), plan.rows.size(), fmt::join(whole.not_done, ", "),
+                    plan.file.string()));
+  if (!whole.no_report.empty())
+    print_warning(
+        fmt::format("{} of {} rows have no run in it because their workflow has no stage "
+                    "report.runout (rows {}). Add one to it",
+                    whole.no_report.size(), plan.rows.size(), fmt::join(whole.no_report, ", ")));
+  if (!whole.not_kept.empty())
+    print_warning(fmt::format(
+        "{} of {} rows have no run in it because its page was not kept (rows {}). Write 'keep: "
+        "final' and a 'disk' that is large enough into {}, with 'page: true' for the report, take "
+        "away the records of the reports without files (the .json without a folder of that name in "
+        "the stage's folder in {}), and run the study: it computes these runs again",
+        whole.not_kept.size(), plan.rows.size(), fmt::join(whole.not_kept, ", "),
+        plan.file.string(), (folder / "stages").string()));
+}
+
+/// What mail takes, and a browser opens without a wait.
+constexpr double kLargestToSend = 60e6;
+
+int report_whole(const StudyArguments& args, const Opened& study, const study::Table& table) {
+  const study::WholePage whole = write_whole_page(
+      study.folder, study.plan, table, static_cast<std::size_t>(args.frames), &stop_on_signal());
+  const double bytes = static_cast<double>(whole.bytes);
+  fmt::print("{} ({:.1f} MB, with the runs of {} of {} rows)\n", whole.path.string(), bytes / 1e6,
+             whole.rows, study.plan.rows.size());
+  tell_missing(whole, study.plan, study.folder);
+  if (bytes > kLargestToSend) {
+    // Fewer states lie farther apart and pack worse: the size goes about with the root of their
+    // number (48 states of 134 dams 73.9 MB, 36 of them 65.5 MB).
+    const double share = 0.97 * kLargestToSend / bytes;
+    const double fewer = share * share * static_cast<double>(whole.states);
+    print_warning(fmt::format(
+        "{} is larger than {:.0f} MB (mail and some browsers do not take it). Write it with fewer "
+        "states of each player: --frames {:.0f}, where there are up to {} now",
+        whole.path.filename().string(), kLargestToSend / 1e6, std::max(2.0, std::floor(fewer)),
+        whole.states));
+  }
+  return 0;
+}
+
 int report_study(const StudyArguments& args) {
   const Opened study(args.out);
-  write_results(study.folder, study.plan, study.progress);
+  const study::Table table = write_results(study.folder, study.plan, study.progress);
   fmt::print("{}\n", (study.folder / "study.html").string());
-  return 0;
+  return args.whole ? report_whole(args, study, table) : 0;
 }
 
 int clean(const StudyArguments& args) {
@@ -246,7 +295,14 @@ void add_study(CLI::App& app, Command& action) {
   const auto [status_command, status_args] = on_folder("status", "Tell how far a study is", status);
   status_command->add_flag("--json", status_args->json, "as JSON");
   on_folder("table", "Print the table of all rows as CSV", table);
-  on_folder("report", "Write tables, figures and page again", report_study);
+  const auto [report_command, report_args] =
+      on_folder("report", "Write tables, figures and page again", report_study);
+  report_command->add_flag("--whole", report_args->whole,
+                           "also study-whole.html, with all runs in it");
+  report_command
+      ->add_option("--frames", report_args->frames, "states of each player in it, at most [all]")
+      ->check(CLI::Range(2, 1000))
+      ->needs("--whole");
   const auto [clean_command, clean_args] =
       on_folder("clean", "Take away results that no row needs", clean);
   clean_command->add_flag("--dry-run", clean_args->dry_run, "only tell how much");

@@ -15,26 +15,6 @@
 namespace flowslide {
 namespace {
 
-/// JSON that no browser takes for the end of the element it stands in.
-std::string in_script(const std::string& json) {
-  std::string out;
-  out.reserve(json.size());
-  for (const char c : json) out += c == '<' ? std::string("\\u003c") : std::string(1, c);
-  return out;
-}
-
-/// Source expression of a content security policy.
-std::string policy_hash(std::string_view text) {
-  const std::string hex = sha256(text);
-  std::string bytes;
-  for (std::size_t i = 0; i < hex.size(); i += 2) {
-    unsigned value = 0;
-    std::from_chars(hex.data() + i, hex.data() + i + 2, value, 16);
-    bytes += static_cast<char>(value);
-  }
-  return "'sha256-" + base64(bytes) + "'";
-}
-
 std::string anchor(std::string_view title) {
   std::string out;
   for (const char c : title)
@@ -145,6 +125,24 @@ std::string settings_html(const std::vector<ToldStage>& stages) {
 }  // namespace
 
 std::string_view page_style() { return kPageStyle; }
+
+std::string in_script(const std::string& json) {
+  std::string out;
+  out.reserve(json.size());
+  for (const char c : json) out += c == '<' ? std::string("\\u003c") : std::string(1, c);
+  return out;
+}
+
+std::string policy_hash(std::string_view text) {
+  const std::string hex = sha256(text);
+  std::string bytes;
+  for (std::size_t i = 0; i < hex.size(); i += 2) {
+    unsigned value = 0;
+    std::from_chars(hex.data() + i, hex.data() + i + 2, value, 16);
+    bytes += static_cast<char>(value);
+  }
+  return "'sha256-" + base64(bytes) + "'";
+}
 
 std::string report_page(const ReportInputs& in, const ReportConfig& config,
                         const ReportFacts& facts, const FinalState& end) {

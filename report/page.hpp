@@ -16,4 +16,10 @@ std::string report_page(const ReportInputs& inputs, const ReportConfig& config,
 /// Its style sheet, for other pages of the same look.
 std::string_view page_style();
 
+/// JSON that no browser takes for the end of the element it stands in.
+std::string in_script(const std::string& json);
+
+/// Source expression of a content security policy that allows a script or a style, by its text.
+std::string policy_hash(std::string_view text);
+
 }  // namespace flowslide

@@ -91,12 +91,14 @@ std::string PageArrays::index() const {
   return list.dump();
 }
 
-std::string PageArrays::text() const {
-  uLongf size = compressBound(static_cast<uLong>(bytes_.size()));
+std::string PageArrays::text() const { return packed(bytes_); }
+
+std::string packed(std::string_view bytes) {
+  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
   std::string deflated(size, '\0');
-  const int status = compress2(reinterpret_cast<Bytef*>(deflated.data()), &size,
-                               reinterpret_cast<const Bytef*>(bytes_.data()),
-                               static_cast<uLong>(bytes_.size()), 6);
+  const int status =
+      compress2(reinterpret_cast<Bytef*>(deflated.data()), &size,
+                reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()), 6);
   if (status != Z_OK)
     throw FileError(
         "the numbers of the page cannot be compressed (memory does not suffice) close "

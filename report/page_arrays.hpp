@@ -26,7 +26,7 @@ class PageArrays {
 
   /// JSON list of {name, bits, rows, columns, lowest, step}, in the order of the bytes.
   [[nodiscard]] std::string index() const;
-  /// All arrays, deflated (zlib's format), in base64. Throws FileError without memory for it.
+  /// All arrays, packed.
   [[nodiscard]] std::string text() const;
 
  private:
@@ -39,6 +39,9 @@ class PageArrays {
   std::vector<Entry> entries_;
   std::string bytes_;
 };
+
+/// Deflated (zlib's format), in base64. Throws FileError without memory for it.
+std::string packed(std::string_view bytes);
 
 /// RFC 4648, with padding.
 std::string base64(std::string_view bytes);

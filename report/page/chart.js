@@ -403,25 +403,7 @@ class Chart {
     event.preventDefault();
   }
 
-  /** With the styles that the page gives it, for a paper: always light. */
   save() {
-    const copy = this.svg.cloneNode(true);
-    const root = document.documentElement,
-      theme = root.dataset.theme;
-    root.dataset.theme = "light";
-    const styled = ["fill", "stroke", "stroke-width", "font-size", "font-family", "opacity"];
-    const from = this.svg.querySelectorAll("*"),
-      to = copy.querySelectorAll("*");
-    from.forEach((element, i) => {
-      const style = getComputedStyle(element);
-      for (const name of styled) to[i].setAttribute(name, style.getPropertyValue(name));
-    });
-    if (theme) root.dataset.theme = theme;
-    else delete root.dataset.theme;
-    copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");
-    copy.setAttribute("width", this.plot.clientWidth);
-    copy.setAttribute("height", CHART.height);
-    const name = this.title.toLowerCase().replace(/[^a-z0-9]+/g, "-");
-    save(`${name}.svg`, new Blob([copy.outerHTML], { type: "image/svg+xml" }));
+    saveDrawing(this.title, this.svg);
   }
 }

@@ -3,9 +3,12 @@
 const RATES = [0.25, 0.5, 1, 2, 5, 10, 20, 50];
 
 class Player {
-  /** onTime(t) is called whenever another instant is shown. */
+  /** onTime(t) is called whenever another instant is shown, onAct after all that a hand, or the
+      film itself, has done. */
   constructor({ run, points, frames, flow, onTime }) {
     Object.assign(this, { run, points, flow, onTime, mode: "displacement", picked: -1 });
+    this.onAct = () => {};
+    this.films = 0;
     this.start = points.times[0];
     this.end = points.times[points.times.length - 1];
     this.time = this.end;
@@ -88,16 +91,17 @@ class Player {
       },
     });
     this.readout = make("output", { class: "readout" });
-    const rate = make(
+    const rate = (this.rateChoice = make(
       "select",
       {
         "aria-label": "Speed of the film",
         onchange: () => {
           this.rate = +rate.value;
+          this.onAct();
         },
       },
       ...RATES.map((r) => make("option", { value: r, selected: r === this.rate }, `\u00d7${r}`)),
-    );
+    ));
     this.pause();
     return make("div", { class: "row bar" }, this.button, this.slider, rate, this.readout);
   }
@@ -197,24 +201,33 @@ class Player {
     this.readout.textContent = parts.join("   ");
     this.view.redraw();
     this.onTime(this.time);
+    this.onAct();
   }
 
   toggle() {
     this.playing ? this.pause() : this.play();
   }
+  /** What the button says; a film that runs in another player is told of as well. */
+  setPlaying(playing) {
+    this.playing = playing;
+    ++this.films; // ends the film that runs
+    this.button.textContent = playing ? "\u275a\u275a" : "\u25b6";
+    this.button.setAttribute("aria-label", playing ? "Pause" : "Play");
+  }
   pause() {
-    this.playing = false;
-    this.button.textContent = "\u25b6";
-    this.button.setAttribute("aria-label", "Play");
+    this.setPlaying(false);
+    this.leads = false;
+    this.onAct();
   }
   play() {
-    this.playing = true;
-    this.button.textContent = "\u275a\u275a";
-    this.button.setAttribute("aria-label", "Pause");
+    this.setPlaying(true);
+    this.leads = true;
     if (this.time >= this.end) this.show(this.start);
+    this.onAct();
     let last = performance.now();
+    const film = this.films;
     const step = (now) => {
-      if (!this.playing) return;
+      if (film !== this.films) return;
       // A tab that was asleep goes on where it was.
       this.show(this.time + (this.rate * Math.min(now - last, 100)) / 1000);
       last = now;
@@ -222,6 +235,22 @@ class Player {
       else requestAnimationFrame(step);
     };
     requestAnimationFrame(step);
+  }
+
+  /** Shows what another player shows, or runs the film for both if it leads; tells nobody. */
+  obey({ time, playing, rate, lead }) {
+    const { onAct } = this;
+    this.onAct = () => {};
+    this.rate = rate;
+    this.rateChoice.value = rate;
+    this.show(time);
+    if (!playing) this.pause();
+    else if (lead && !(this.playing && this.leads)) this.play();
+    else if (!lead && (this.leads || !this.playing)) {
+      this.setPlaying(true);
+      this.leads = false;
+    }
+    this.onAct = onAct;
   }
 
   keydown(event) {

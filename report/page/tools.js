@@ -102,3 +102,26 @@ function onWidth(element, redraw) {
     redraw();
   }).observe(element);
 }
+
+/** A drawing as a file, with the styles that the page gives it, for a paper: always light. */
+function saveDrawing(title, svg) {
+  const copy = svg.cloneNode(true);
+  const root = document.documentElement,
+    theme = root.dataset.theme;
+  root.dataset.theme = "light";
+  const styled = ["fill", "stroke", "stroke-width", "font-size", "font-family", "opacity"];
+  const from = svg.querySelectorAll("*"),
+    to = copy.querySelectorAll("*");
+  from.forEach((element, i) => {
+    const style = getComputedStyle(element);
+    for (const name of styled) to[i].setAttribute(name, style.getPropertyValue(name));
+  });
+  if (theme) root.dataset.theme = theme;
+  else delete root.dataset.theme;
+  copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");
+  const [, , width, height] = svg.getAttribute("viewBox").split(" ");
+  copy.setAttribute("width", width);
+  copy.setAttribute("height", height);
+  const name = title.toLowerCase().replace(/[^a-z0-9]+/g, "-");
+  save(`${name}.svg`, new Blob([copy.outerHTML], { type: "image/svg+xml" }));
+}

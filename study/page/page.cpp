@@ -3,9 +3,11 @@
 #include "core/xml_text.hpp"
 #include "report/page.hpp"
 #include "study/page/chart.hpp"
+#include "study/page/explorer_data.hpp"
 #include "study/page/labels.hpp"
 #include "study/page/words.hpp"
 #include "study/statistics/summary.hpp"
+#include "study_bundle.hpp"
 #include "workflows/engine/program_version.hpp"
 
 #include <algorithm>
@@ -17,27 +19,6 @@
 namespace flowslide::study {
 namespace {
 
-/// On top of the style of a single run's page: charts drawn as SVG, and wide tables.
-constexpr std::string_view kPageStyle = R"(
-.figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,26rem),1fr));gap:1rem;
-margin:0 0 1rem}figure{margin:0;border:1px solid var(--rule);padding:.6rem}
-figcaption{font-size:.86rem;color:var(--soft);padding:.3rem .2rem 0}
-figure svg{width:100%;height:auto;display:block}
-svg text{font:12px var(--sans);fill:var(--soft)}svg .head{font-weight:600;fill:var(--ink)}
-.axis,.bar{stroke:var(--soft)}svg .grid{stroke:var(--wash)}.fit{stroke:var(--red);fill:none;stroke-width:2}
-.f0{stroke:var(--blue)}.f1{stroke:var(--red)}.f2{stroke:var(--green)}.f3{stroke:var(--purple)}
-.f4{stroke:var(--orange)}.f5{stroke:var(--sky)}.curve{stroke:var(--blue);fill:none;stroke-width:2}.band{fill:var(--blue);fill-opacity:.13}
-.s0{fill:var(--blue)}.s1{fill:var(--red)}.s2{fill:var(--green)}.s3{fill:var(--purple)}
-.s4{fill:var(--orange)}.s5{fill:var(--sky)}circle{fill-opacity:.75}.low{fill:var(--sky)}
-.high{fill:var(--red)}.wide{overflow-x:auto;margin:0 0 1rem}
-.wide th,.wide td{padding:.25rem .9rem .25rem 0;text-align:right;white-space:nowrap}
-.wide td.word,.wide th.word{text-align:left}.failed{color:var(--warn);font-weight:600}
-.block{break-inside:avoid}.block h3{margin-top:.4rem}
-.two{display:grid;grid-template-columns:1fr 1fr;gap:.6rem}
-.two iframe{width:100%;height:80vh;border:1px solid var(--rule);background:var(--wash)}
-@media(max-width:52rem){.two{grid-template-columns:1fr}.two iframe{height:60vh}}
-@media print{figure{break-inside:avoid}.two,#side-by-side{display:none}details{display:block}})";
-
 class Writer {
  public:
   Writer(const Plan& plan, const Table& table, const StudyFindings& f, const StudyAbout& about)
@@ -47,11 +28,12 @@ class Writer {
     head();
     html_ += warnings(table_) + judgement(plan_, table_, f_);
     answer();
+    explorer();
+    side_by_side();
     figures();
     relations();
     comparisons();
     rows();
-    side_by_side();
     end();
     page_.html = std::move(html_);
     return std::move(page_);
@@ -64,11 +46,25 @@ class Writer {
   void close() { html_ += "</section>"; }
 
   void head() {
+    const std::string style = std::string(page_style()) + std::string(kStudyStyle);
+    // A page that is opened from memory is under the policy of this one too.
+    std::string scripts = policy_hash(kStudyScript), styles = policy_hash(style);
+    if (about_.embedded) {
+      for (const std::string& hash : about_.embedded->scripts) scripts += " " + hash;
+      for (const std::string& hash : about_.embedded->styles) styles += " " + hash;
+    }
     html_ += fmt::format(
-        "<!doctype html><html lang='en'><head><meta charset='utf-8'><meta name='viewport' "
-        "content='width=device-width,initial-scale=1'><title>{0}</title><style>{1}{2}</style>"
+        "<!doctype html><html lang='en'><head><meta charset='utf-8'>"
+        "<meta http-equiv='Content-Security-Policy' content=\"default-src 'none'; script-src {}; "
+        "style-src {}; img-src data: blob:; frame-src 'self' file: blob:; base-uri 'none'; "
+        "form-action 'none'\"><meta name='viewport' "
+        "content='width=device-width,initial-scale=1'><meta name='color-scheme' content='light "
+        "dark'>",
+        scripts, styles);
+    html_ += fmt::format(
+        "<title>{0}</title><style>{1}</style>"
         "</head><body><a class='skip' href='#judgement'>To the answer</a><header><h1>{0}</h1>",
-        xml_text(plan_.name), page_style(), kPageStyle);
+        xml_text(plan_.name), style);
     std::string meta = xml_text(program_version());
     if (!about_.sessions.empty())
       meta = fmt::format("{} &middot; {}", xml_text(about_.sessions.back().began.substr(0, 10)),
@@ -86,11 +82,12 @@ class Writer {
     html_ += ".</p></div>" + cards(plan_, table_, f_) + "</header><nav>";
     for (const auto& [id, name] :
          {std::pair{"judgement", "The answer"}, std::pair{"results", "Results"},
+          std::pair{"explore", "Explore"}, std::pair{"side-by-side", "Two runs"},
           std::pair{"charts", "Charts"}, std::pair{"relations", "What it hangs on"},
-          std::pair{"rows", "All rows"}, std::pair{"side-by-side", "Two runs"},
-          std::pair{"cost", "How it was computed"}})
-      html_ += fmt::format("<a href='#{}'>{}</a>", id, name);
-    html_ += "</nav><main>";
+          std::pair{"rows", "All rows"}, std::pair{"cost", "How it was computed"}})
+      if (id != std::string_view("side-by-side") || has_reports())
+        html_ += fmt::format("<a href='#{}'>{}</a>", id, name);
+    html_ += "<span id='tools'></span></nav><main>";
   }
 
   void answer() {
@@ -285,20 +282,58 @@ class Writer {
     if (!has_reports()) return;
     open("side-by-side", "Two runs side by side");
     html_ +=
-        "<p>Choose <b>left</b> and <b>right</b> in <a href='#rows'>the table of all rows</a>: the "
-        "pages of two runs stand here, each with its player. They lie beside this file, in "
-        "<code>stages</code>.</p><div class='two'><iframe name='left' title='run on the left'>"
-        "</iframe><iframe name='right' title='run on the right'></iframe></div>";
+        "<p>Click a point of the chart above, with Shift for the right, or choose <b>left</b> and "
+        "<b>right</b> in <a href='#rows'>the table of all rows</a>: the pages of two runs stand "
+        "here, each with its player. ";
+    html_ += about_.embedded ? "They are in this file"
+                             : "They lie beside this file, in <code>stages</code>";
+    html_ += fmt::format("{}.</p><div class='two' id='two'>", without_page());
+    for (const char* side : {"left", "right"})
+      html_ += fmt::format(
+          "<div><p class='which' data-side='{0}'></p><iframe name='{0}' title='run on the {0}'>"
+          "</iframe></div>",
+          side);
+    html_ += "</div>";
     close();
+  }
+
+  /// ", but for 2 of 134 rows, of which no page was kept"; empty where every row has one.
+  [[nodiscard]] std::string without_page() const {
+    const auto without = std::count(about_.reports.begin(), about_.reports.end(), "");
+    return without == 0 ? ""
+                        : fmt::format(", but for {} of {} rows, which have none", without,
+                                      about_.reports.size());
+  }
+
+  /// A chart of the reader's own: the scripts draw it. It starts with what a figure shows as well.
+  void explorer() {
+    open("explore", "Explore");
+    html_ +=
+        "<div id='explorer'><p>The chart of any number against any other needs JavaScript; the "
+        "charts below do not.</p></div>";
+    close();
+  }
+
+  [[nodiscard]] ExplorerStart explorer_start() const {
+    ExplorerStart start;
+    if (f_.results.empty()) return start;
+    start.y = start.x = f_.results.front();
+    if (const auto related = strongest(start.y); !related.empty()) start.x = related.front()->x;
+    if (const Column* by = colour(start.x, start.y)) start.colour = by->name;
+    return start;
   }
 
   [[nodiscard]] std::string links(std::size_t row) const {
     const std::string to = row < about_.reports.size() ? about_.reports[row] : "";
     if (to.empty()) return "<td class='word'></td>";
+    // what is in this file has no address: the scripts open it
+    const std::string page = about_.embedded ? "#side-by-side" : xml_text(to);
+    const std::string flow = about_.embedded ? page : page + "#the-flow";
     return fmt::format(
-        "<td class='word'><a href='{0}' target='_blank'>page</a> <a href='{0}#the-flow' "
-        "target='left'>left</a> <a href='{0}#the-flow' target='right'>right</a></td>",
-        xml_text(to));
+        "<td class='word'><a href='{0}' target='_blank' data-row='{2}'>page</a> <a href='{1}' "
+        "target='left' data-row='{2}'>left</a> <a href='{1}' target='right' "
+        "data-row='{2}'>right</a></td>",
+        page, flow, row);
   }
 
   void rows() {
@@ -345,7 +380,11 @@ class Writer {
         plan_.nodes.size(), xml_text(plan_.file.filename().string()));
     if (!about_.sessions.empty()) cost();
     close();
-    html_ += "</main></body></html>\n";
+    html_ += fmt::format(
+        "</main><script type='application/json' id='study'>{}</script><script>{}</script>\n{}"
+        "</body></html>\n",
+        in_script(explorer_json(plan_, table_, f_, about_, explorer_start())), kStudyScript,
+        about_.embedded ? about_.embedded->elements : "");
   }
 
   void cost() {

@@ -1,10 +1,12 @@
 #pragma once
+#include "study/page/embedded.hpp"
 #include "study/run/session_record.hpp"
 #include "study/table/analysis.hpp"
 
 #include <atomic>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +20,9 @@ struct Page {
 /// What is not in the table.
 struct StudyAbout {
   std::vector<SessionRecord> sessions;  ///< what it cost
-  std::vector<std::string> reports;     ///< page of each row's run, beside the study's; "" for none
+  /// Page of each row's run: its path beside the study's, or its id in `embedded`; "" for none.
+  std::vector<std::string> reports;
+  std::optional<EmbeddedRuns> embedded = {};  ///< in the page itself
 };
 
 Page make_page(const Plan& plan, const Table& table, const StudyFindings& findings,
@@ -30,5 +34,23 @@ Page make_page(const Plan& plan, const Table& table, const StudyFindings& findin
 void write_tables(const std::filesystem::path& folder, const Plan& plan, const Table& table);
 void write_page(const std::filesystem::path& folder, const Plan& plan, const Table& table,
                 const std::atomic<bool>* stop = nullptr);
+
+/// The page with those of its runs in it.
+struct WholePage {
+  std::filesystem::path path;
+  std::size_t bytes = 0;
+  std::size_t states = 0;  ///< of the player that has most
+  std::size_t rows = 0;    ///< whose run is in it
+  // Rows whose run is not, from 1.
+  std::vector<std::size_t> not_done;
+  std::vector<std::size_t> no_report;  ///< of a workflow without the stage
+  std::vector<std::size_t> not_kept;   ///< done, but their page is not on the disk
+};
+
+/// study-whole.html in the folder of the study: one file that can be sent, with at most so many
+/// `states` in the player of each run, or 0 for all. Throws as write_page.
+WholePage write_whole_page(const std::filesystem::path& folder, const Plan& plan,
+                           const Table& table, std::size_t states = 0,
+                           const std::atomic<bool>* stop = nullptr);
 
 }  // namespace flowslide::study

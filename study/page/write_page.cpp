@@ -3,6 +3,8 @@
 #include "study/page/page.hpp"
 #include "workflows/engine/names.hpp"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 namespace fs = std::filesystem;
@@ -42,6 +44,14 @@ void remove_earlier(const fs::path& folder, const std::map<std::string, std::str
   }
 }
 
+constexpr std::string_view kReportStage = "report.runout";
+
+bool has_report(const Plan& plan, std::size_t row) {
+  const std::vector<std::size_t>& nodes = plan.rows[row].nodes;
+  return std::any_of(nodes.begin(), nodes.end(),
+                     [&](std::size_t n) { return plan.nodes[n].stage.type.name == kReportStage; });
+}
+
 /// The page of the run of each row, where its report is kept, relative to the folder.
 std::vector<std::string> pages(const fs::path& folder, const Plan& plan, const Table& table) {
   std::vector<std::string> found(table.rows);
@@ -49,8 +59,7 @@ std::vector<std::string> pages(const fs::path& folder, const Plan& plan, const T
     for (const std::size_t n : plan.rows[r].nodes) {
       const std::string& stage = plan.nodes[n].stage.name;
       const Column* key = table.find("key:" + stage);
-      if (plan.nodes[n].stage.type.name != "report.runout" || !key || key->text[r].empty())
-        continue;
+      if (plan.nodes[n].stage.type.name != kReportStage || !key || key->text[r].empty()) continue;
       const std::string path = fmt::format("stages/{}/{}/report/report.html", stage, key->text[r]);
       if (fs::is_regular_file(folder / path)) found[r] = path;
     }
@@ -69,7 +78,7 @@ void write_page(const fs::path& folder, const Plan& plan, const Table& table,
                 const std::atomic<bool>* stop) {
   const StudyFindings findings = analyse(plan, table, stop);
   const Page page =
-      make_page(plan, table, findings, {read_sessions(folder), pages(folder, plan, table)});
+      make_page(plan, table, findings, {read_sessions(folder), pages(folder, plan, table), {}});
   const fs::path figures = folder / "figures", analysis = folder / "analysis.json";
   std::error_code error;
   if (fs::is_symlink(fs::symlink_status(figures, error)))
@@ -86,6 +95,31 @@ void write_page(const fs::path& folder, const Plan& plan, const Table& table,
   write_file(analysis, to_json_text(plan, findings, digests));
   for (const auto& [name, svg] : page.figures) write_file(figures / name, svg);
   write_file(folder / "study.html", page.html);
+}
+
+WholePage write_whole_page(const fs::path& folder, const Plan& plan, const Table& table,
+                           std::size_t states, const std::atomic<bool>* stop) {
+  StudyAbout about{read_sessions(folder), pages(folder, plan, table), {}};
+  WholePage whole{
+      .path = folder / "study-whole.html", .not_done = {}, .no_report = {}, .not_kept = {}};
+  const Column* state = table.find("state");
+  for (std::size_t r = 0; r < table.rows; ++r) {
+    if (!about.reports[r].empty()) {
+      ++whole.rows;
+      continue;
+    }
+    const bool done = state->text[r] == "done";
+    (!has_report(plan, r) ? whole.no_report
+     : done               ? whole.not_kept
+                          : whole.not_done)
+        .push_back(plan.rows[r].number);
+  }
+  about.embedded = embed_runs(folder, about.reports, states);
+  whole.states = about.embedded->states;
+  const Page page = make_page(plan, table, analyse(plan, table, stop), about);
+  whole.bytes = page.html.size();
+  write_file(whole.path, page.html);
+  return whole;
 }
 
 }  // namespace flowslide::study

@@ -65,6 +65,13 @@ TEST_CASE("a study runs, is then done, and tells of itself", "[cli]") {
   CHECK(call(scratch, "study table runs/s").out == table);
   CHECK_THAT(call(scratch, "study status runs/s").out, Contains("2 rows done, 0 failed, 0 open"));
   CHECK(call(scratch, "study report runs/s").code == 0);
+  CHECK_FALSE(std::filesystem::exists(scratch / "runs/s/study-whole.html"));
+  o = call(scratch, "study report runs/s --whole --frames 10");
+  CHECK(o.code == 0);
+  CHECK_THAT(o.out, Contains("study-whole.html (0.") && Contains("the runs of 0 of 2 rows"));
+  CHECK_THAT(o.err, Contains("2 of 2 rows have no run in it because their workflow has no stage"));
+  CHECK(std::filesystem::exists(scratch / "runs/s/study-whole.html"));
+  CHECK(call(scratch, "study report runs/s --frames 10").code == 2);
   CHECK_THAT(call(scratch, "study clean runs/s").out, Contains("0 results"));
   CHECK(call(scratch, "study run s.yaml --quiet").out.empty());
 }

@@ -224,7 +224,7 @@ def scenes():
     # What cannot be read back of a stage is a row that failed.
     result.append(Scene("study", study, codes=(1,)))
     result.append(Scene("study, all done", study, [study], codes=(1,)))
-    result.append(Scene("study report", ["study", "report", "ROOT/out"], [study]))
+    result.append(Scene("study report", ["study", "report", "ROOT/out", "--whole"], [study]))
     result.append(Scene("stage of a study", [], [study], stage="zone"))
     sent = ["study", "run", "ROOT/in/study.yaml", "--out", "ROOT/out", "--quiet", "--executor", "slurm"]
     result.append(Scene("task of a study", ["study", "part", "ROOT/out/slurm/1/rows.json", "0"], [sent],

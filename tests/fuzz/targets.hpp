@@ -23,6 +23,7 @@ void stage_record(Input);  ///< stage.json, facts.json, audit.json
 void study(Input);         ///< a study file and a table that it names
 void study_plan(Input);    ///< study.json
 void job_array(Input);     ///< what a job array is to compute, and what squeue says
+void run_page(Input);      ///< the page of a run, whose player gets fewer states
 void checkpoint(Input);    ///< changes of good checkpoints, with the checksum made anew
 
 struct Target {
@@ -40,6 +41,7 @@ inline constexpr std::array kTargets{Target{"workflow", workflow},
                                      Target{"store", store},
                                      Target{"run_lock", run_lock},
                                      Target{"stage_record", stage_record},
+                                     Target{"run_page", run_page},
                                      Target{"checkpoint", checkpoint},
                                      Target{"study", study},
                                      Target{"study_plan", study_plan},

@@ -15,10 +15,12 @@ def find_chromium():
 
 
 class Browser:
-    """One page; what its console says of errors and warnings is in `said`."""
+    """One page with its frames; what their consoles say of errors and warnings is in `said`."""
 
     def __init__(self, program, seconds=120.0):
         self.seconds, self.count, self.said, self.buffer = seconds, 0, [], b""
+        self.contexts = {}  # of scripts, by frame
+        self.sessions = {}  # of frames in a process of their own
         self.profile = tempfile.TemporaryDirectory(
             prefix="flowslide-browser-", ignore_cleanup_errors=True)
         to_browser, self.out = os.pipe()
@@ -41,6 +43,7 @@ class Browser:
         self.session = attached["sessionId"]
         for part in ("Page", "Runtime", "Log", "Network"):
             self.call(f"{part}.enable")
+        self.call("Target.setAutoAttach", autoAttach=True, waitForDebuggerOnStart=False, flatten=True)
 
     def __enter__(self):
         return self
@@ -79,17 +82,31 @@ class Browser:
             self.said.append(" ".join(words))
         elif method == "Log.entryAdded" and params["entry"]["level"] in ("error", "warning"):
             self.said.append(params["entry"]["text"])
+        elif method == "Runtime.executionContextCreated":
+            context = params["context"]
+            if context["auxData"]["isDefault"]:
+                self.contexts[context["auxData"]["frameId"]] = context["id"]
+        elif method == "Target.attachedToTarget" and hasattr(self, "session"):
+            self.sessions[params["targetInfo"]["targetId"]] = params["sessionId"]
+            for part in ("Runtime", "Log", "Network"):
+                self.send(f"{part}.enable", params["sessionId"])
+        elif method == "Target.detachedFromTarget":
+            self.sessions = {f: s for f, s in self.sessions.items() if s != params["sessionId"]}
         elif method == "Network.requestWillBeSent":
             url = params["request"]["url"]
             if not url.startswith(("file:", "blob:", "data:", "about:")):
                 self.said.append(f"loads {url}")
 
-    def call(self, method, **params):
+    def send(self, method, session=None, **params):
         self.count += 1
         message = {"id": self.count, "method": method, "params": params}
-        if hasattr(self, "session"):
-            message["sessionId"] = self.session
+        if session or hasattr(self, "session"):
+            message["sessionId"] = session or self.session
         os.write(self.out, json.dumps(message).encode() + b"\0")
+        return message
+
+    def call(self, method, session=None, **params):
+        message = self.send(method, session, **params)
         until = time.monotonic() + self.seconds
         while time.monotonic() < until:
             answer = self.receive()
@@ -99,21 +116,39 @@ class Browser:
                 return answer["result"]
         raise RuntimeError(f"{method}: no answer in {self.seconds:g} s")
 
-    def run(self, code):
+    def run(self, code, **where):
         """The value of an expression in the page, of a promise when it is kept."""
         answer = self.call("Runtime.evaluate", expression=code, returnByValue=True,
-                           awaitPromise=True)
+                           awaitPromise=True, **where)
         if "exceptionDetails" in answer:
             raise RuntimeError(answer["exceptionDetails"]["exception"]["description"])
         return answer["result"].get("value")
 
-    def wait(self, code):
+    def run_in(self, name, code):
+        """The same in a frame of the page, by its name."""
+        element = self.call("Runtime.evaluate", expression=f"document.getElementsByName('{name}')[0]")
+        node = self.call("DOM.describeNode", objectId=element["result"]["objectId"])
+        frame = node["node"]["frameId"]
+        if frame in self.sessions:
+            return self.run(code, session=self.sessions[frame])
+        return self.run(code, contextId=self.contexts[frame])
+
+    def wait(self, code, run=None):
         until = time.monotonic() + self.seconds
-        while not (value := self.run(code)):
+        while not (value := (run or self.run)(code)):
             if time.monotonic() > until:
                 raise RuntimeError(f"never came true: {code}")
             time.sleep(0.1)
         return value
+
+    def wait_in(self, name, code):
+        """A frame that is just being loaded has no scripts yet."""
+        def run(code):
+            try:
+                return self.run_in(name, code)
+            except (RuntimeError, KeyError):
+                return None
+        return self.wait(code, run)
 
     def open(self, path, width, height=900, dark=False, phone=False):
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height,

@@ -4,6 +4,7 @@
 #include "report/markdown_html.hpp"
 #include "report/page_arrays.hpp"
 #include "report/page_points.hpp"
+#include "report/page_thin.hpp"
 #include "tests/report/dam_case.hpp"
 #include "tests/support/scratch.hpp"
 
@@ -85,10 +86,11 @@ struct PageCase {
   std::vector<std::string> warnings;
   std::vector<ToldStage> stages;
   std::optional<GroundMotion> motion;
+  dam_case::Flow moves;
 
   PageCase() { scratch.write("audit.json", kAudit); }
   [[nodiscard]] std::string page() const {
-    dam_case::write_flow(scratch / "mpm.h5", particles, {});
+    dam_case::write_flow(scratch / "mpm.h5", particles, moves);
     dam_case::write_history(scratch / "history.h5", true);
     const FemHistory history(scratch / "history.h5");
     const MpmHistory flow(scratch / "mpm.h5");
@@ -339,6 +341,41 @@ TEST_CASE("Markdown of the report becomes HTML") {
   CHECK(markdown_html("a ** b ` c") == "<p>a ** b ` c</p>\n");
 }
 
+TEST_CASE("A player with fewer states shows those that are left as before", "[report]") {
+  const std::string full = PageCase().page();
+  const auto run_of = [](const std::string& html) {
+    return json::parse(between(html, "id=\"run\">", "</script>"));
+  };
+  const auto numbers_of = [&](const std::string& html) {
+    return unpacked(run_of(html)["arrays"], between(html, "id=\"arrays\">", "</script>"));
+  };
+  REQUIRE(page_states(full) == 3);
+  CHECK(thinned_page(full, 3) == full);
+  const std::string thin = thinned_page(full, 2);
+  CHECK(page_states(thin) == 2);
+  CHECK(thin.size() < full.size());
+  const auto before = numbers_of(full), after = numbers_of(thin);
+  REQUIRE(before.size() == after.size());
+  // of the instants 0, 20 and 40 s the middle one goes
+  CHECK(after.at("points.t") == std::vector{before.at("points.t")[0], before.at("points.t")[2]});
+  const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+  for (const char* name : {"points.x", "points.y", "points.speed", "points.strength"}) {
+    const std::vector<double>&all = before.at(name), &some = after.at(name);
+    const std::size_t points = all.size() / 3;
+    REQUIRE(some.size() == 2 * points);
+    std::size_t differ = 0;
+    for (std::size_t i = 0; i < points; ++i)
+      differ += !same(some[i], all[i]) + !same(some[points + i], all[2 * points + i]);
+    CHECK(differ == 0);
+  }
+  for (const char* name : {"points.x0", "flow.front", "mesh.x", "zone.t"})
+    CHECK(after.at(name) == before.at(name));
+  CHECK(thinned_page("<p>another page</p>", 2) == "<p>another page</p>");
+  std::string damaged = full;
+  damaged.replace(damaged.find("id=\"arrays\">") + 13, 40, 40, 'A');
+  CHECK_THROWS_AS(thinned_page(damaged, 2), InputError);
+}
+
 TEST_CASE("Child of the browser test: writes a page", "[.page-child]") {
   PageCase c;
   c.config.title = "Dam <of> the \"test\" & more";
@@ -352,5 +389,6 @@ TEST_CASE("Child of the browser test: writes a page", "[.page-child]") {
                "{}"}};
   const char* out = std::getenv("FLOWSLIDE_PAGE");
   REQUIRE(out);
+  if (const char* end = std::getenv("FLOWSLIDE_PAGE_END")) c.moves.end = std::stod(end);
   std::ofstream(out) << c.page();
 }

@@ -9,6 +9,7 @@ import csv
 import os
 import pathlib
 import random
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -143,6 +144,46 @@ def check_page(study, pictures):
         expect(f"no word of trouble {page.said}", not page.said)
 
 
+def write_whole(program, study):
+    end = subprocess.run([program, "study", "report", str(study), "--whole"], capture_output=True,
+                         text=True)
+    expect("a file to send is written", end.returncode == 0)
+    return " ".join(end.stdout.split()), " ".join(end.stderr.split())
+
+
+def check_whole(program, folder, study):
+    """All runs are in one file; one whose page has gone comes back as the guide says."""
+    rows = len(rows_of(study))
+    out, err = write_whole(program, study)
+    expect(f"with all runs in it ({out.split(' (')[-1]}", f"the runs of {rows} of {rows} rows" in out)
+    expect("and nothing to tell", "no run in it" not in err)
+    gone = next(path for path in sorted((study / "stages/report").iterdir()) if path.is_dir())
+    shutil.rmtree(gone)
+    out, err = write_whole(program, study)
+    expect("one without a page is told", f"the runs of {rows - 1} of {rows} rows" in out
+           and f"1 of {rows} rows have no run in it because its page was not kept" in err)
+    gone.with_suffix(".json").unlink()
+    subprocess.run(command(program, folder, study.name), stdout=subprocess.DEVNULL)
+    out, _ = write_whole(program, study)
+    expect("and comes back as the guide says", f"the runs of {rows} of {rows} rows" in out)
+
+
+def look_at_whole(study):
+    program = find_chromium()
+    if not program:
+        return
+    alone = study / "alone"
+    alone.mkdir()
+    (study / "study-whole.html").rename(alone / "study-whole.html")
+    with Browser(program) as page:
+        page.open(alone / "study-whole.html", 1280)
+        page.run("document.querySelector('#rows a[target=left]').click()")
+        page.wait_in("left", "location.protocol === 'about:' && document.documentElement.dataset.ready")
+        expect("a run opens from the file alone", page.run_in(
+            "left", "document.documentElement.dataset.ready") == "yes")
+        expect(f"no word of trouble {page.said}", not page.said)
+
+
 def main():
     program = sys.argv[1]
     pictures = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else None
@@ -158,6 +199,8 @@ def main():
                == (folder / "whole/table.csv").read_bytes())
         check_added(program, folder)
         check_page(folder / "killed", pictures)
+        check_whole(program, folder, folder / "killed")
+        look_at_whole(folder / "killed")
     sys.exit(1 if failures else 0)
 
 

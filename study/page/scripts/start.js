@@ -1,0 +1,32 @@
+/* Puts the parts into the page of a study. */
+
+function start() {
+  const data = JSON.parse(document.getElementById("study").textContent);
+  const rows = new Rows(data),
+    runs = new Runs(rows, data.embedded);
+  const place = document.getElementById("explorer");
+  let explorer = null;
+  if (rows.find(data.start.x) && rows.find(data.start.y)) {
+    explorer = new Explorer({ rows, start: data.start, runs });
+    place.replaceChildren(explorer.element);
+  } else place.replaceChildren(make("p", {}, "No row has told a number yet."));
+  const redraw = () => explorer?.chart.render();
+  document
+    .getElementById("tools")
+    .replaceChildren(
+      themeButton(redraw),
+      make("button", { type: "button", onclick: () => window.print() }, "print"),
+    );
+  printLight(redraw);
+  document.documentElement.dataset.ready = "yes";
+}
+
+try {
+  start();
+} catch (error) {
+  document.documentElement.dataset.ready = "no";
+  document
+    .getElementById("explorer")
+    .replaceChildren(make("p", { class: "problem" }, error.message));
+  console.error(error);
+}
