@@ -95,7 +95,7 @@ TEST_CASE("a broken mesh is explained with file and line", "[importers]") {
       {"1 0 0\n1.5 1 0\n", kElements, "nodeinfo.dat:2: node number 1.5 is not a whole number"},
       {"1 0 0\n2 x 0\n", kElements, "nodeinfo.dat:2: column 2 'x' is not a number"},
       {"1 0 0\n2 nan 0\n", kElements, "nodeinfo.dat:2: column 2 (x) is nan"},
-      {"1 0 0 0\n", kElements, "nodeinfo.dat:1: 4 columns, but `mesh.node_columns` names 3"},
+      {"1 0 0 0\n", kElements, "nodeinfo.dat:1: 4 columns, but `node_columns` names 3"},
       {"1 0 0\n2 1\n", kElements, "nodeinfo.dat:2: 2 columns"},
       {kNodes + "2 9 9\n", kElements, "nodeinfo.dat:7: node 2 was already given in line 2"},
       {kNodes, kElements + "10 1 2 5 4 168\n",
@@ -118,7 +118,7 @@ TEST_CASE("a broken mesh is explained with file and line", "[importers]") {
 TEST_CASE("column names are checked", "[importers]") {
   Files files(kNodes, kElements);
   files.config.node_columns = {"tag", "x", "z"};
-  CHECK_THROWS_WITH(files.read(), Contains("`mesh.node_columns`: unknown column 'z'"));
+  CHECK_THROWS_WITH(files.read(), Contains("`node_columns`: unknown column 'z'"));
   files.config.node_columns = {"tag", "x", "x"};
   CHECK_THROWS_WITH(files.read(), Contains("names 'x' twice"));
   files.config.node_columns = {"tag", "x", "skip"};
