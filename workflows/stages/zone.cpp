@@ -78,6 +78,7 @@ struct ZoneStage {
     if (p.materials.empty()) return p;
     (void)zone_parts(p.section->mesh, p.materials, config);
     check_pond(config, p.section->mesh, p.materials, found);
+    if (p.fem && found_from_r_u(config.zone)) check_liquefiable(*p.fem, config, *p.section, found);
     return p;
   }
   static StageResult run(const RunContext& context, const Config& config, const Inputs& in,
