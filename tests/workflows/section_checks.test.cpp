@@ -153,3 +153,11 @@ TEST_CASE("Water downstream of a section is told") {
   CHECK_THAT(with(10.0, 20.0), Contains("10 m on the left") && Contains("flow upstream"));
   CHECK_THAT(with(30.0, 25.0), Contains("5 m above the ground at the downstream end"));
 }
+
+TEST_CASE("Where nothing has liquefied, the largest r_u is told") {
+  LiquefactionZone zone;
+  zone.r_u_node = {kUnset, 0.12, 0.31, 0.05};
+  CHECK_THAT(how_near(zone, {}), Contains("largest r_u is 0.31") && Contains("above 0.7"));
+  zone.r_u_node = {kUnset, kUnset};
+  CHECK_THAT(how_near(zone, {}), Contains("none has 8 kPa"));
+}

@@ -71,4 +71,17 @@ void check_liquefiable(const FemConfig& fem, const TransferRuleConfig& rule,
   }
 }
 
+std::string how_near(const LiquefactionZone& zone, const RuConfig& r_u) {
+  double most = kUnset;
+  for (const double r : zone.r_u_node)
+    if (is_set(r) && !(most >= r)) most = r;
+  if (!is_set(most))
+    return fmt::format(" No node has an r_u, as none has {:g} kPa of vertical effective stress.",
+                       r_u.floor / 1e3);
+  return fmt::format(
+      " The largest r_u is {:.2g}, where soil counts as liquefied above {:g}. If that is little for "
+      "so strong a shaking, look at its peak, permeability, the water table and the soil's law.",
+      most, r_u.threshold);
+}
+
 }  // namespace flowslide

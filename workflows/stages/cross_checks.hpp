@@ -2,6 +2,7 @@
 #include "fem/config.hpp"
 #include "model/history_material.hpp"
 #include "model/section_mesh.hpp"
+#include "model/zone.hpp"
 #include "mpm/run/flow_config.hpp"
 #include "report/config.hpp"
 #include "transfer/map/map_config.hpp"
@@ -96,6 +97,10 @@ void check_map_names(const MapConfig& map, const SectionMesh& section,
 /// Whether the shaking can liquefy what may liquefy.
 void check_liquefiable(const FemConfig& fem, const TransferRuleConfig& rule,
                        const SectionMesh& section, Findings& found);
+
+/// How near soil has come to liquefying that did not: whether a safe dam or a wrong number is the
+/// reason shows there. A sentence after a blank.
+std::string how_near(const LiquefactionZone& zone, const RuConfig& r_u);
 
 /// Soils and water of the finite elements.
 void check_fem_soils(const FemConfig& fem, Findings& found);

@@ -25,7 +25,8 @@ std::vector<std::string> zone_warnings(const LiquefactionZone& zone, const ZoneC
     if (note.starts_with("r_u reaches") || note.starts_with("automatic."))
       warnings.push_back(note + ".");
   if (liquefied == 0)
-    warnings.emplace_back("no element has liquefied at the transfer: nothing weakens the dam.");
+    warnings.push_back("no element has liquefied at the transfer: nothing weakens the dam." +
+                       how_near(zone, config.r_u));
   constexpr double kMany = 0.5, kSome = 0.05;
   if (static_cast<double>(strong) > kSome * static_cast<double>(liquefied))
     warnings.push_back(
