@@ -42,16 +42,17 @@ constexpr Plausible kContraction{0.0, 0.01, 20.0, kAnything};
 constexpr Plausible kWaterStiffness{1e5, 1e7, 2.6e9, 1e10};
 constexpr Plausible kWaterDensity{500.0, 950.0, 1300.0, 2000.0};
 
-void judge(const std::string& what, double value, double scale, const char* unit,
+void judge(const std::string& what, double value, double scale, std::string_view unit,
            const Plausible& p, const char* hint, Findings& found) {
+  const std::string of = unit.empty() ? "" : fmt::format(" {}", unit);
   if (!(value >= p.least && value <= p.most))
-    found.errors.push_back(fmt::format("{} is {:.4g} {} (it cannot lie outside {:g} to {:g} {}) {}",
-                                       what, value / scale, unit, p.least / scale, p.most / scale,
-                                       unit, hint));
+    found.errors.push_back(fmt::format("{} is {:.4g}{} (it cannot lie outside {:g} to {:g}{}) {}",
+                                       what, value / scale, of, p.least / scale, p.most / scale, of,
+                                       hint));
   else if (!(value >= p.low && value <= p.high))
-    found.warnings.push_back(fmt::format("{} is {:.4g} {}, outside the usual {:g} to {:g} {}: {}.",
-                                         what, value / scale, unit, p.low / scale, p.high / scale,
-                                         unit, hint));
+    found.warnings.push_back(fmt::format("{} is {:.4g}{}, outside the usual {:g} to {:g}{}: {}.",
+                                         what, value / scale, of, p.low / scale, p.high / scale, of,
+                                         hint));
 }
 
 constexpr const char* kUnitHint = "check number and unit";
