@@ -41,7 +41,7 @@ Table read_table(const std::filesystem::path& path, const std::vector<std::strin
     const std::string problem = numbers.parse(line, values);
     validate(problem.empty(), "{}:{}: {}", table.file, reader.line_number(), problem);
     validate(values.size() == columns.size(),
-             "{}:{}: {} columns, but `mesh.{}` names {}: [{}]. Name every column, `skip` for those "
+             "{}:{}: {} columns, but `{}` names {}: [{}]. Name every column, `skip` for those "
              "that are not needed",
              table.file, reader.line_number(), values.size(), setting, columns.size(),
              fmt::join(columns, ", "));
@@ -62,16 +62,16 @@ Table read_table(const std::filesystem::path& path, const std::vector<std::strin
 int column_of(const std::vector<std::string>& columns, std::string_view name,
               std::string_view setting, bool optional = false) {
   const auto found = std::find(columns.begin(), columns.end(), name);
-  validate(optional || found != columns.end(), "`mesh.{}` lacks '{}'", setting, name);
+  validate(optional || found != columns.end(), "`{}` lacks '{}'", setting, name);
   validate(found == columns.end() || std::find(found + 1, columns.end(), name) == columns.end(),
-           "`mesh.{}` names '{}' twice", setting, name);
+           "`{}` names '{}' twice", setting, name);
   return found == columns.end() ? -1 : static_cast<int>(found - columns.begin());
 }
 
 void check_names(const std::vector<std::string>& columns, const std::set<std::string>& known,
                  std::string_view setting) {
   for (const std::string& name : columns)
-    validate(known.count(name) > 0, "`mesh.{}`: unknown column '{}' (known: {})", setting, name,
+    validate(known.count(name) > 0, "`{}`: unknown column '{}' (known: {})", setting, name,
              fmt::join(known, ", "));
 }
 
@@ -188,10 +188,15 @@ void check_shapes(MeshText& out, const std::string& file, bool reverse_clockwise
            "corner. Check the order of their nodes",
            file, folded.size(), list_tags(folded));
   if (clockwise.empty()) return;
-  validate(reverse_clockwise,
-           "{}: {} elements run clockwise ({}): OpenSees then computed negative volumes. Check the "
-           "columns n1..n4, or set `mesh.reverse_clockwise: true` if only this table is reversed",
-           file, clockwise.size(), list_tags(clockwise));
+  validate(
+      reverse_clockwise, "{}: {} elements run clockwise ({}): their volumes would be negative. {}",
+      file, clockwise.size(), list_tags(clockwise),
+      clockwise.size() == out.mesh.num_elements()
+          ? "All of them do: does y point downwards, or are x and y exchanged? Then the section "
+            "would lie upside down; change the coordinates. Only if they are right and the "
+            "nodes are listed the other way round, set `reverse_clockwise: true`"
+          : "Check the columns n1..n4, or set `reverse_clockwise: true` if only their nodes "
+            "are listed the other way round");
   out.notes.push_back(
       fmt::format("{}: {} clockwise elements were reversed", file, clockwise.size()));
 }

@@ -294,7 +294,7 @@ ImportReport import_opensees(const OpenSeesConfig& config, const std::filesystem
   Percent percent(progress);
   const auto tick = scan_progress(percent, config.shaking ? 8 : 3);
   const FemFrame gravity = read_gravity(context, tick);
-  append(report.warnings, gravity_warnings(text.mesh, gravity));
+  append(report.warnings, gravity_warnings(text.mesh, materials, gravity, factors.stress));
 
   std::optional<Shaking> shaking;
   std::optional<FrameSource> source;
@@ -350,7 +350,8 @@ ImportPreview preview_opensees(const OpenSeesConfig& config) {
   std::optional<FemFrame> gravity;
   if (small) {
     gravity = read_gravity(context, {});
-    append(preview.warnings, gravity_warnings(preview.mesh, *gravity));
+    append(preview.warnings,
+           gravity_warnings(preview.mesh, preview.materials, *gravity, factors.stress));
   }
   if (!config.shaking) return preview;
   look(config.shaking->displacement, context.nodal(c.displacement));

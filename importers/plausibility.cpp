@@ -2,7 +2,7 @@
 
 #include "core/check.hpp"
 #include "core/elementary.hpp"
-#include "core/median.hpp"
+#include "importers/weight_check.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,64 +10,19 @@
 namespace flowslide {
 namespace {
 
-constexpr double kLightest = 10e3;    // [N/m3] below every saturated soil
-constexpr double kHeaviest = 30e3;    // [N/m3] above every soil
 constexpr double kNoPressure = 0.01;  // of the largest vertical stress
 constexpr double kJump = 0.3;         // allowed change from gravity to the first row
-constexpr std::size_t kSamples = 200;
 // A node moves at most as far as its speed carries it. It comes back within a step of a second or
 // less, so that a small part of the way is seen only; at 10 Hz that is a thirtieth.
 constexpr double kTooSlow = 10.0, kTooFast = 100.0;
 constexpr double kLongestStep = 1.0;  // [s]
 constexpr double kNoWay = 1e-4;       // [m]
 
-// Highest point of the mesh above x.
-double surface_height(const QuadMesh& mesh, double x) {
-  double top = -std::numeric_limits<double>::infinity();
-  for (const auto& nodes : mesh.elements) {
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Vec2& a = mesh.nodes[static_cast<std::size_t>(nodes[i])];
-      const Vec2& b = mesh.nodes[static_cast<std::size_t>(nodes[(i + 1) % 4])];
-      if (x < std::min(a[0], b[0]) || x > std::max(a[0], b[0])) continue;
-      const double s = b[0] == a[0] ? 1.0 : (x - a[0]) / (b[0] - a[0]);
-      top = std::max({top, a[1] + s * (b[1] - a[1]), b[0] == a[0] ? a[1] : top});
-    }
-  }
-  return top;
-}
-
-double mean_pressure(const QuadMesh& mesh, const FemFrame& frame, std::size_t e) {
-  double sum = 0.0;
-  for (const std::int32_t n : mesh.elements[e])
-    sum += frame.pore_pressure[static_cast<std::size_t>(n)];
-  return 0.25 * sum;
-}
-
-// Median unit weight over sampled elements in the lower two thirds of the section [N/m3].
-double apparent_unit_weight(const QuadMesh& mesh, const FemFrame& gravity) {
-  struct Sample {
-    double depth;
-    double weight;
-  };
-  std::vector<Sample> samples;
-  double deepest = 0.0;
-  const std::size_t stride = std::max<std::size_t>(1, mesh.num_elements() / kSamples);
-  for (std::size_t e = 0; e < mesh.num_elements(); e += stride) {
-    const Vec2 c = centroid(corners(mesh, mesh.nodes, e));
-    const double depth = surface_height(mesh, c[0]) - c[1];
-    const double total = mean_pressure(mesh, gravity, e) - gravity.stress[e][1];
-    samples.push_back({depth, total / depth});
-    deepest = std::max(deepest, depth);
-  }
-  std::vector<double> weights;
-  for (const Sample& s : samples)
-    if (s.depth > deepest / 3.0) weights.push_back(s.weight);
-  return median(std::move(weights));
-}
-
 }  // namespace
 
-std::vector<std::string> gravity_warnings(const QuadMesh& mesh, const FemFrame& gravity) {
+std::vector<std::string> gravity_warnings(const QuadMesh& mesh,
+                                          const std::vector<HistoryMaterial>& materials,
+                                          const FemFrame& gravity, double unit) {
   std::vector<std::string> warnings;
   std::size_t tension = 0, lying = 0;
   double largest_stress = 0.0;
@@ -89,14 +44,8 @@ std::vector<std::string> gravity_warnings(const QuadMesh& mesh, const FemFrame& 
         fmt::format("gravity: the horizontal effective stress exceeds the vertical one in {} of {} "
                     "elements. Is the order of `columns.stress` right, which is xx, yy, ...?",
                     lying, gravity.stress.size()));
-  const double weight = apparent_unit_weight(mesh, gravity);
-  if (2 * tension <= gravity.stress.size() && !(weight >= kLightest && weight <= kHeaviest)) {
-    warnings.push_back(
-        fmt::format("gravity: total vertical stress grows by {:.3g} kN/m3 with depth (soil: 10 to "
-                    "30) are `units.stress` and `units.length`, the order of the recorders and the "
-                    "gravity row right?",
-                    weight / 1e3));
-  }
+  if (std::string text = weight_warning(mesh, materials, gravity, unit); !text.empty())
+    warnings.push_back(std::move(text));
   double largest_pressure = 0.0;
   for (const double u : gravity.pore_pressure)
     largest_pressure = std::max(largest_pressure, std::abs(u));
@@ -135,7 +84,7 @@ std::vector<std::string> start_warnings(const FemFrame& gravity, const FemFrame&
   return warnings;
 }
 
-MotionWatch::MotionWatch(const QuadMesh& mesh) : mesh_(mesh) {
+MotionWatch::MotionWatch(const QuadMesh& mesh) : mesh_(mesh), strains_(mesh) {
   Vec2 low = mesh.nodes.front(), high = low;
   for (const Vec2& p : mesh.nodes)
     for (int d = 0; d < 2; ++d) {
@@ -165,6 +114,7 @@ void MotionWatch::look_at(const FemFrame& frame) {
     for (int d = 0; d < 2; ++d) positions[n][d] += u[d];
   }
   compare_velocity(frame);
+  strains_.look_at(frame);
   if (folded_ > 0) return;
   for (std::size_t e = 0; e < mesh_.num_elements(); ++e) {
     if (area(corners(mesh_, positions, e)) > 0.0) continue;
@@ -199,6 +149,7 @@ std::vector<std::string> MotionWatch::warnings() const {
         "velocity: nodes move by {:.3g} m in all, but their velocity would carry them {:.3g} m. "
         "Was `vel` recorded, in the units of the displacement and of the time?",
         moved_, carried_));
+  if (std::string text = strains_.warning(); !text.empty()) warnings.push_back(std::move(text));
   if (largest_ > 0.5 * height_)
     warnings.push_back(fmt::format(
         "displacement: node {} has moved by {:.4g} m at t = {:.6g} s, more than half the height of "

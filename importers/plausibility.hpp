@@ -1,5 +1,6 @@
 #pragma once
 #include "core/check.hpp"
+#include "importers/strain_watch.hpp"
 #include "model/history.hpp"
 
 #include <string>
@@ -9,18 +10,19 @@
 /// may be unusual, and nothing is corrected by guessing.
 namespace flowslide {
 
-/// Sign of the vertical effective stress; apparent unit weight
-///   gamma = (u - sigma'_yy) / (y_surface - y)
-/// of the deeper elements (soil: 10 to 30 kN/m3); pore pressure that is nowhere noticeable.
-std::vector<std::string> gravity_warnings(const QuadMesh& mesh, const FemFrame& gravity);
+/// Sign of the vertical effective stress; total vertical stress against the weight above
+/// (weight_check.hpp); pore pressure that is nowhere noticeable. `unit` is that of stress [Pa].
+std::vector<std::string> gravity_warnings(const QuadMesh& mesh,
+                                          const std::vector<HistoryMaterial>& materials,
+                                          const FemFrame& gravity, double unit);
 
 /// Stress and pore pressure must start from the gravity state: a pore pressure recorded as `disp`
 /// or `accel` of its degree of freedom, or a gravity row of another stage, does not.
 std::vector<std::string> start_warnings(const FemFrame& gravity, const FemFrame& first);
 
 /// Follows the motion of a mesh: displacements larger than the section cannot be, those larger than
-/// half its height are odd, elements must not fold, and what nodes move by is about what their
-/// velocity carries them.
+/// half its height are odd, elements must not fold, what nodes move by is about what their velocity
+/// carries them, and strains are those of the displacements.
 class MotionWatch {
  public:
   explicit MotionWatch(const QuadMesh& mesh);
@@ -40,6 +42,7 @@ class MotionWatch {
   double folded_time_ = 0.0;
   double last_time_ = kUnset;
   std::vector<Vec2> last_displacement_, last_velocity_;
+  StrainWatch strains_;
   double moved_ = 0.0, carried_ = 0.0;  ///< ways of the mean node by displacement, by velocity [m]
 };
 

@@ -67,11 +67,11 @@ void refuse_foreign_format(const RecordText& text) {
 std::vector<std::string> implausible(const std::string& name, double peak, double step) {
   std::vector<std::string> odd;
   const std::string of = name.empty() ? "" : name + ": ";
-  // The largest peaks ever recorded on the ground are 3 to 4 g; below 0.0005 g nobody feels it.
-  constexpr double kMost = 3.0 * kGravity, kLeast = 5e-4 * kGravity;
+  // A handful of records exceed 2 g, beside faults; below 0.0005 g nobody feels it.
+  constexpr double kMost = 2.0 * kGravity, kLeast = 5e-4 * kGravity;
   if (peak > kMost)
     odd.push_back(fmt::format(
-        "{}the peak is {:.3g} g. Hardly any record exceeds 3 g; is the unit of acceleration "
+        "{}the peak is {:.3g} g. Hardly any record exceeds 2 g; is the unit of acceleration "
         "right?",
         of, peak / kGravity));
   if (peak < kLeast)

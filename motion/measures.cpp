@@ -104,6 +104,19 @@ double mean_period(const GroundMotion& motion) {
   return weighted / weights;
 }
 
+double frequency_below(const GroundMotion& motion, double share) {
+  FLOWSLIDE_EXPECT(share >= 0.0 && share <= 1.0);
+  const std::size_t n = std::bit_ceil(motion.acceleration.size());
+  std::vector<double> padded = motion.acceleration;
+  padded.resize(n, 0.0);
+  const std::vector<std::complex<double>> c = half_spectrum(padded);
+  std::vector<double> below(c.size());
+  double sum = 0.0;
+  for (std::size_t k = 0; k < c.size(); ++k) below[k] = sum += std::norm(c[k]);
+  const auto at = std::ranges::lower_bound(below, share * sum);
+  return static_cast<double>(at - below.begin()) / (static_cast<double>(n) * motion.dt);
+}
+
 MotionMeasures measure(const GroundMotion& motion, const Progress& progress) {
   check(motion);
   return {.pga = pga(motion),

@@ -28,6 +28,9 @@ double cumulative_absolute_velocity(const GroundMotion& motion);
 /// Fourier amplitude [s]. Throws InputError if the motion has nothing in that band.
 double mean_period(const GroundMotion& motion);
 
+/// Frequency below which a share (0 to 1) of the energy of the acceleration lies [Hz].
+double frequency_below(const GroundMotion& motion, double share);
+
 struct MotionMeasures {
   double pga = kUnset;    ///< [m/s2]
   double pgv = kUnset;    ///< [m/s]

@@ -135,6 +135,16 @@ void check_settings(const SyntheticConfig& c) {
            c.d5_95, c.tm);
 }
 
+/// The end of the whole length is faded out; after a long lead the shaking would fall into that.
+void check_lead(const SyntheticConfig& c) {
+  constexpr double kMostDurations = 4.0;
+  validate(c.lead <= kMostDurations * c.d5_95,
+           "synthetic motion: lead {} s is more than {:g} times d5_95 of {} s (the motion is made "
+           "in one piece whose end is faded out, and the shaking would fall into that) take at "
+           "most {:g} s; fem.run finds the state at rest by itself and needs no lead",
+           c.lead, kMostDurations, c.d5_95, kMostDurations * c.d5_95);
+}
+
 /// Root of a continuous function of log(x), by the regula falsi with halved ends (Illinois).
 /// Returns the best x if there is no change of sign.
 template <class F>
@@ -168,6 +178,7 @@ double root_near(F&& f, double x, double tolerance) {
 /// Number of samples.
 std::size_t count_samples(const SyntheticConfig& config) {
   check_settings(config);
+  check_lead(config);
   // Three quarters of it, 2.6 durations, hold all but 1 % of the energy of any envelope.
   const double length = config.lead + 3.5 * config.d5_95;
   validate(length / config.dt <= kMostSamples,

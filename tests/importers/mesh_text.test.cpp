@@ -76,6 +76,14 @@ TEST_CASE("clockwise elements are listed, and reversed if asked", "[importers]")
   CHECK_THAT(text.notes.at(0), Contains("1 clockwise elements were reversed"));
 }
 
+TEST_CASE("a section whose y points downwards is told from one clockwise element", "[importers]") {
+  Files one(kNodes, "10 1 4 5 2 168\n20 2 3 6 5 170\n");
+  CHECK_THROWS_WITH(one.read(), Contains("`reverse_clockwise: true`") && !Contains("downwards"));
+  Files all("1 0 0\n2 1 0\n3 2 0\n4 0 -1\n5 1 -1\n6 2 -1\n", "10 1 2 5 4 168\n20 2 3 6 5 170\n");
+  CHECK_THROWS_WITH(all.read(), Contains("2 elements run clockwise (10, 20)") &&
+                                    Contains("does y point downwards") && Contains("upside down"));
+}
+
 TEST_CASE("coincident nodes and a missing last newline are noted", "[importers]") {
   const MeshText text = Files(kNodes + "7 2 1\n", "10 1 2 5 4 168\n20 2 3 7 5 170").read();
   REQUIRE(text.notes.size() == 2);
@@ -95,7 +103,7 @@ TEST_CASE("a broken mesh is explained with file and line", "[importers]") {
       {"1 0 0\n1.5 1 0\n", kElements, "nodeinfo.dat:2: node number 1.5 is not a whole number"},
       {"1 0 0\n2 x 0\n", kElements, "nodeinfo.dat:2: column 2 'x' is not a number"},
       {"1 0 0\n2 nan 0\n", kElements, "nodeinfo.dat:2: column 2 (x) is nan"},
-      {"1 0 0 0\n", kElements, "nodeinfo.dat:1: 4 columns, but `mesh.node_columns` names 3"},
+      {"1 0 0 0\n", kElements, "nodeinfo.dat:1: 4 columns, but `node_columns` names 3"},
       {"1 0 0\n2 1\n", kElements, "nodeinfo.dat:2: 2 columns"},
       {kNodes + "2 9 9\n", kElements, "nodeinfo.dat:7: node 2 was already given in line 2"},
       {kNodes, kElements + "10 1 2 5 4 168\n",
@@ -118,7 +126,7 @@ TEST_CASE("a broken mesh is explained with file and line", "[importers]") {
 TEST_CASE("column names are checked", "[importers]") {
   Files files(kNodes, kElements);
   files.config.node_columns = {"tag", "x", "z"};
-  CHECK_THROWS_WITH(files.read(), Contains("`mesh.node_columns`: unknown column 'z'"));
+  CHECK_THROWS_WITH(files.read(), Contains("`node_columns`: unknown column 'z'"));
   files.config.node_columns = {"tag", "x", "x"};
   CHECK_THROWS_WITH(files.read(), Contains("names 'x' twice"));
   files.config.node_columns = {"tag", "x", "skip"};

@@ -57,6 +57,16 @@ TEST_CASE("mean period weights with squared amplitude", "[motion]") {
   CHECK_THROWS_AS(mean_period(slow), InputError);
 }
 
+TEST_CASE("frequency below which a share of the energy lies", "[motion]") {
+  // Two sines over whole cycles: 9 parts of the energy at 2 Hz and 1 at 8 Hz.
+  const GroundMotion both = sampled(0.005, 20.48, [](double t) {
+    return 3.0 * std::sin(4.0 * kPi * t) + std::sin(16.0 * kPi * t);
+  });
+  CHECK(frequency_below(both, 0.5) == Approx(2.0).margin(0.1));
+  CHECK(frequency_below(both, 0.8) == Approx(2.0).margin(0.1));
+  CHECK(frequency_below(both, 0.95) == Approx(8.0).margin(0.1));
+}
+
 TEST_CASE("measures of a decaying sine", "[motion]") {
   const double a = 4.0, beta = 0.25, omega = 2.0 * kPi * 5.0;
   const GroundMotion motion =

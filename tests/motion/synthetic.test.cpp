@@ -160,3 +160,16 @@ TEST_CASE("presets have names of their own", "[motion]") {
   for (const MotionPreset& preset : motion_presets()) names.insert(preset.name);
   CHECK(names.size() == motion_presets().size());
 }
+
+TEST_CASE("a quiet time that would push the shaking into the end is refused", "[motion]") {
+  SyntheticConfig config = sample_config();
+  config.d5_95 = 2.0;
+  config.lead = 8.0;
+  CHECK(synthetic_duration(config) > 10.0);
+  for (const double lead : {8.1, 600.0}) {
+    config.lead = lead;
+    CHECK_THROWS_WITH(synthesize(config),
+                      Contains("take at most 8 s") && Contains("needs no lead"));
+    CHECK_THROWS_AS(synthetic_duration(config), InputError);
+  }
+}

@@ -161,6 +161,13 @@ TEST_CASE("The ground lies under the soil") {
   CHECK_THAT(on({{0.0, 20.0}}).errors, Contains("15 m below it"));
   CHECK_THAT(on({{0.0, -40.0}}).warnings, Contains("hangs about 45 m above"));
   CHECK(on({{0.0, -10.0}, {120.0, 0.0}, {200.0, -5.0}}).errors.empty());
+  // A cliff below the toe is one thing, one below the soil another.
+  CHECK(on({{0.0, 0.0}, {120.0, 0.0}, {120.0, -50.0}}).warnings.empty());
+  CHECK_THAT(on({{0.0, 0.0}, {100.0, 0.0}, {100.0, -50.0}}).warnings,
+             Contains("x = 105 m, y = 5 m hangs 55 m above"));
+  CHECK(on({{0.0, 0.0}, {120.0, 0.0}, {400.0, 14.0}}).warnings.empty());
+  CHECK_THAT(on({{0.0, 0.0}, {130.0, 0.0}, {130.0, 20.0}}).warnings,
+             Contains("rises to y = 20 m at x = 130 m, 20 m above the toe"));
 }
 
 TEST_CASE("Cells too coarse for the soil are refused, coarse ones warned about") {
@@ -233,63 +240,6 @@ TEST_CASE("Materials of the transfer have plausible numbers") {
                     Contains("materials.tailings: the section has no material 'clay'"));
 }
 
-TEST_CASE("Imported densities are plausible") {
-  const auto with = [](double density) {
-    Findings found;
-    check_densities({{"tailings", 1, density}}, found);
-    return answer(found);
-  };
-  CHECK(with(1900.0).warnings.empty());
-  CHECK_THAT(with(500.0).errors, Contains("materials.tailings.density is 500 kg/m3"));
-  CHECK_THAT(with(5500.0).errors, Contains("5500"));
-  CHECK_THAT(with(1000.0).warnings, Contains("usual"));
-}
-
-TEST_CASE("Soils and water of the finite elements have plausible numbers") {
-  FemConfig sound;
-  sound.water.emplace().table = {{0.0, 20.0}};
-  FemMaterialConfig m;
-  m.density = 1870.0;
-  m.void_ratio = 0.99;
-  m.laws.of<LinearElastic>() = LinearElastic::Params{20e6, 0.3};
-  sound.materials["tailings"] = m;
-  const auto with = [&](auto change) {
-    FemConfig c = sound;
-    Findings control, found;
-    check_fem_soils(c, control);
-    CHECK(control.errors.empty());
-    CHECK(control.warnings.empty());
-    change(c, c.materials["tailings"]);
-    check_fem_soils(c, found);
-    return answer(found);
-  };
-  using M = FemMaterialConfig;
-  CHECK_THAT(with([](FemConfig&, M& x) { x.density = 500.0; }).errors, Contains("density is 500"));
-  // With a void ratio of 0.3 grains of 2.13 t/m3, with 2.5 of 4.05 t/m3.
-  CHECK_THAT(with([](FemConfig&, M& x) { x.void_ratio = 0.3; }).warnings, Contains("grains"));
-  CHECK_THAT(with([](FemConfig&, M& x) { x.void_ratio = 9.0; }).errors, Contains("9700 kg/m3"));
-  CHECK_THAT(
-      with([](FemConfig&, M& x) { x.laws.of<LinearElastic>()->youngs_modulus = 20.0; }).errors,
-      Contains("youngs_modulus"));
-  CHECK_THAT(with([](FemConfig& c, M&) { c.water->bulk_modulus = 2.2e3; }).errors,
-             Contains("water.bulk_modulus"));
-  CHECK_THAT(with([](FemConfig&, M& x) {
-               x.permeability = {1.0, 1e-6};
-             }).warnings,
-             Contains("permeability is 1 m/s"));
-  CHECK_THAT(with([](FemConfig& c, M&) { c.base.shear_wave_velocity = 80.0; }).warnings,
-             Contains("base.shear_wave_velocity is 80 m/s"));
-  CHECK_THAT(with([](FemConfig& c, M&) { c.water->density = 1.0; }).errors,
-             Contains("water.density"));
-  CHECK_THAT(with([](FemConfig& c, M&) { c.gravity.acceleration = 50.0; }).warnings,
-             Contains("not that of the earth"));
-  // Dry soil of 1400 kg/m3: saturated it would have grains of 1.8 t/m3.
-  CHECK(with([](FemConfig&, M& x) {
-          x.density = 1400.0;
-          x.drained = true;
-        }).warnings.empty());
-}
-
 TEST_CASE("Water stands in the section") {
   const auto at = [](double level) {
     FemConfig c;
@@ -333,6 +283,8 @@ TEST_CASE("Depths count from a pond above the soil") {
   CHECK(at(30.0).empty());
   CHECK_THAT(at(0.0), Contains("all depths of liquefaction will be 0"));
   CHECK_THAT(at(90.0), Contains("60 m above"));
+  CHECK(at(16.0).empty());
+  CHECK_THAT(at(10.0), Contains("lies 20 m below the top of the liquefiable soil"));
 }
 
 TEST_CASE("The pond of a report stands in the section") {

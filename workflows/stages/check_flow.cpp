@@ -68,6 +68,58 @@ void check_absorbing(const FlowConfig& flow, const Soil& soil, Findings& found) 
   refuse_if("bottom", a.bottom, [&](const Vec2& c) { return c[1] < *a.bottom; });
 }
 
+/// Part of the soil that has neither soil nor ground below it: a step drawn short of the toe.
+void check_overhang(const FlowConfig& flow, const Soil& soil, Findings& found) {
+  if (!(soil.largest > 0.0)) return;
+  const double width = std::max(2.0 * std::sqrt(soil.largest), 2.0 * flow.cell);
+  std::map<std::int64_t, Vec2> lowest;  // of each strip
+  for (const Vec2& c : soil.centres) {
+    const auto strip = static_cast<std::int64_t>(std::floor((c[0] - soil.all.left) / width));
+    const auto at = lowest.try_emplace(strip, c).first;
+    if (c[1] < at->second[1]) at->second = c;
+  }
+  double most = 0.0;
+  Vec2 where{};
+  for (const auto& [strip, c] : lowest) {
+    const double above = c[1] - ground_height(flow.ground.surface, c[0]);
+    if (above > most) {
+      most = above;
+      where = c;
+    }
+  }
+  if (most > width + 0.5 * soil.all.height())
+    warn(
+        found,
+        "ground.surface: the lowest soil at x = {:.6g} m, y = {:.6g} m hangs {:.3g} m above it, and "
+        "will fall before it flows. Does the step of the ground lie at the end of the soil, x = "
+        "{:.6g} m?",
+        where[0], where[1], most, soil.all.right);
+}
+
+/// Ground that a flow cannot climb, near the toe.
+void check_rise(const FlowConfig& flow, const Soil& soil, Findings& found) {
+  const Extent& e = soil.counted;
+  if (e.empty()) return;
+  constexpr double kReach = 10.0, kHigh = 0.5;  // heights of the soil
+  const double toe = ground_height(flow.ground.surface, e.right + 1e-6 * e.height());
+  const double end = e.right + kReach * e.height();
+  double most = -std::numeric_limits<double>::infinity(), where = end;
+  const auto look = [&](double x, double y) {
+    if (!(y > most)) return;
+    most = y;
+    where = x;
+  };
+  for (const auto& p : flow.ground.surface)
+    if (p[0] > e.right && p[0] <= end) look(p[0], p[1]);
+  look(end, ground_height(flow.ground.surface, end));
+  if (std::isfinite(toe) && most - std::max(toe, e.bottom) > kHigh * e.height())
+    warn(
+        found,
+        "ground.surface: rises to y = {:.6g} m at x = {:.6g} m, {:.3g} m above the toe of soil {:.3g} "
+        "m high: the flow ends there. Are heights and their datum those of the section?",
+        most, where, most - std::max(toe, e.bottom), e.height());
+}
+
 }  // namespace
 
 Soil soil_of(const SectionMesh& section, const MapConfig& config,
@@ -235,6 +287,9 @@ void check_ground(const FlowConfig& flow, const Soil& soil, Findings& found) {
          "ground.surface: the lowest soil hangs about {:.3g} m above it and will fall before it "
          "flows.",
          lowest);
+  else
+    check_overhang(flow, soil, found);
+  check_rise(flow, soil, found);
 }
 
 }  // namespace flowslide

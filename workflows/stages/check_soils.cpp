@@ -32,22 +32,46 @@ constexpr Plausible kCohesion{0.0, 0.0, 5e5, kAnything};
 // From clay to open gravel.
 constexpr Plausible kPermeability{0.0, 1e-12, 0.1, kAnything};
 constexpr Plausible kShearWave{0.0, 150.0, 5000.0, kAnything};
+// From weathered rock to basalt.
+constexpr Plausible kRockDensity{1000.0, 1600.0, 3300.0, 6000.0};
+// Of normally loaded and of overconsolidated soil.
+constexpr Plausible kEarthPressure{0.0, 0.25, 0.95, kAnything};
+// G = G0 P_atm at 1 atm: 20 to 250 MPa, shear waves of 100 to 370 m/s.
+constexpr Plausible kG0{0.0, 150.0, 2500.0, kAnything};
+constexpr Plausible kContraction{0.0, 0.01, 20.0, kAnything};
 constexpr Plausible kWaterStiffness{1e5, 1e7, 2.6e9, 1e10};
 constexpr Plausible kWaterDensity{500.0, 950.0, 1300.0, 2000.0};
 
-void judge(const std::string& what, double value, double scale, const char* unit,
+void judge(const std::string& what, double value, double scale, std::string_view unit,
            const Plausible& p, const char* hint, Findings& found) {
+  const std::string of = unit.empty() ? "" : fmt::format(" {}", unit);
   if (!(value >= p.least && value <= p.most))
-    found.errors.push_back(fmt::format("{} is {:.4g} {} (it cannot lie outside {:g} to {:g} {}) {}",
-                                       what, value / scale, unit, p.least / scale, p.most / scale,
-                                       unit, hint));
+    found.errors.push_back(fmt::format("{} is {:.4g}{} (it cannot lie outside {:g} to {:g}{}) {}",
+                                       what, value / scale, of, p.least / scale, p.most / scale, of,
+                                       hint));
   else if (!(value >= p.low && value <= p.high))
-    found.warnings.push_back(fmt::format("{} is {:.4g} {}, outside the usual {:g} to {:g} {}: {}.",
-                                         what, value / scale, unit, p.low / scale, p.high / scale,
-                                         unit, hint));
+    found.warnings.push_back(fmt::format("{} is {:.4g}{}, outside the usual {:g} to {:g}{}: {}.",
+                                         what, value / scale, of, p.low / scale, p.high / scale, of,
+                                         hint));
 }
 
 constexpr const char* kUnitHint = "check number and unit";
+
+/// What a number that is no density may be one of.
+std::string density_hint(double density) {
+  const auto fits = [](double x) { return x >= kDensity.low && x <= kDensity.high; };
+  if (fits(density * 1e3)) return fmt::format("{:g} t/m3 are {:g} kg/m3", density, density * 1e3);
+  if (fits(density * 1e3 / kGravity))
+    return fmt::format("a unit weight of {:g} kN/m3 is a density of {:.0f} kg/m3", density,
+                       density * 1e3 / kGravity);
+  if (fits(density / kGravity))
+    return fmt::format("a unit weight of {:g} N/m3 is a density of {:.0f} kg/m3", density,
+                       density / kGravity);
+  constexpr double kPoundsPerCubicFoot = 16.0185;
+  if (fits(density * kPoundsPerCubicFoot))
+    return fmt::format("{:g} lb/ft3 are {:.0f} kg/m3", density, density * kPoundsPerCubicFoot);
+  return kUnitHint;
+}
 
 /// The section must not be pressed flat by its own weight.
 void check_stiffness(const std::string& where, double modulus, double density, double height,
@@ -116,6 +140,13 @@ void check_law(const std::string& where, const FemMaterialConfig& m, Findings& f
   ShakingLaws::each([&]<class M>() {
     const auto& law = m.laws.of<M>();
     if (!law) return;
+    if constexpr (requires { law->G0; }) {
+      judge(where + ".pm4sand.G0", law->G0, 1.0, "", kG0,
+            "it is a number, the shear modulus at 1 atm over that pressure", found);
+      judge(where + ".pm4sand.hpo", law->hpo, 1.0, "", kContraction,
+            "it is calibrated to cyclic strength, the larger the stronger (flowslide point)",
+            found);
+    }
     if constexpr (requires { law->youngs_modulus; })
       judge(where + ".youngs_modulus", law->youngs_modulus, 1e6, "MPa", kStiffness, kUnitHint,
             found);
@@ -160,14 +191,66 @@ void check_fem_scheme(const FemConfig& fem, Findings& found) {
         "node.");
 }
 
+/// Weight, water and stress of a soil that is shaken.
+void check_soil(const std::string& where, const FemMaterialConfig& m, const FemConfig& fem,
+                Findings& found) {
+  const double water = fem.water ? fem.water->density : 1000.0;
+  const std::size_t before = found.errors.size();
+  judge(where + ".density", m.density, 1.0, "kg/m3", kDensity, density_hint(m.density).c_str(),
+        found);
+  const double n = m.void_ratio / (1.0 + m.void_ratio);
+  // Saturated, as the program takes it; soil that is drained or has no water may be dry.
+  double grains = (m.density - n * water) / (1.0 - n);
+  if (m.drained || !fem.water) grains = std::clamp(2650.0, grains, m.density / (1.0 - n));
+  if (found.errors.size() == before)
+    judge(fmt::format("{}: density of the grains that density {:g} kg/m3 and void_ratio {:g} imply",
+                      where, m.density, m.void_ratio),
+          grains, 1.0, "kg/m3", kGrains,
+          m.void_ratio > 5.0 ? "a void ratio is no percentage: 40 % of pores are 0.67"
+                             : "density is that of grains and water together; check both",
+          found);
+  for (const double k : m.permeability)
+    if (is_set(k)) judge(where + ".permeability", k, 1.0, "m/s", kPermeability, kUnitHint, found);
+  if (m.permeability[1] > m.permeability[0] * (1.0 + 1e-9))
+    found.warnings.push_back(fmt::format(
+        "{}.permeability: {:g} m/s vertically is more than {:g} m/s horizontally, but soil is "
+        "laid down in layers, which water passes less easily. The first is the horizontal one.",
+        where, m.permeability[1], m.permeability[0]));
+  judge(where + ".k0", m.k0, 1.0, "", kEarthPressure,
+        "horizontal over vertical effective stress at rest is about 1 - sin(phi)", found);
+}
+
+/// Water on the side to which the flow goes.
+void check_water_downstream(const FemConfig& fem, const QuadMesh& mesh, Findings& found) {
+  const Extent e = extent_of(mesh);
+  double ground = e.bottom;
+  for (const Vec2& p : mesh.nodes)
+    if (p[0] >= e.right - 1e-6 * (e.right - e.left)) ground = std::max(ground, p[1]);
+  const double left = fem::water_level(*fem.water, e.left);
+  const double right = fem::water_level(*fem.water, e.right);
+  constexpr double kPond = 0.05, kDeep = 0.2;  // of the height of the section
+  if (right > left + kPond * e.height())
+    found.warnings.push_back(fmt::format(
+        "water.table: stands at y = {:.4g} m on the right and at {:.4g} m on the left: water would "
+        "flow upstream, as flows go to the right. Is the table mirrored, or the section?",
+        right, left));
+  else if (right > ground + kDeep * e.height())
+    found.warnings.push_back(
+        fmt::format("water.table: stands {:.3g} m above the ground at the downstream end: the toe "
+                    "is under water. The runout is computed in air, without that water.",
+                    right - ground));
+}
+
 }  // namespace
 
 void check_densities(const std::vector<HistoryMaterial>& materials, Findings& found) {
   constexpr double kWater = 1000.0;  // [kg/m3]
   for (const HistoryMaterial& m : materials) {
     const std::string where = "materials." + m.name;
-    judge(where + ".density", m.density, 1.0, "kg/m3", kDensity, kUnitHint, found);
-    if (!is_set(m.porosity)) continue;
+    const std::size_t before = found.errors.size();
+    judge(where + ".density", m.density, 1.0, "kg/m3", kDensity, density_hint(m.density).c_str(),
+          found);
+    if (!is_set(m.porosity) || found.errors.size() > before) continue;
     // Between full of water and dry.
     const double full = (m.density - m.porosity * kWater) / (1.0 - m.porosity);
     const double grains = std::clamp(2650.0, full, m.density / (1.0 - m.porosity));
@@ -208,6 +291,12 @@ void check_map_materials(const MapConfig& map, const std::vector<HistoryMaterial
     if (!m.liquefied) continue;
     check_stiffness(where + ".liquefied", m.liquefied->youngs_modulus, density, height, found);
     check_incompressible(where + ".liquefied", m.liquefied->poisson_ratio, found);
+    constexpr double kUndrained = 0.4;
+    if (m.liquefied->poisson_ratio < kUndrained)
+      found.warnings.push_back(fmt::format(
+          "{}.liquefied.poisson_ratio: {:g} lets soil full of water change its volume as if it "
+          "were drained. Take 0.45 to 0.495.",
+          where, m.liquefied->poisson_ratio));
     if (map.c_soft_ratio < 1.0 && m.liquefied->residual_strain > 0.0)
       check_softening_strains(where + ".liquefied", 0.0, m.liquefied->residual_strain, found);
   }
@@ -215,25 +304,16 @@ void check_map_materials(const MapConfig& map, const std::vector<HistoryMaterial
 
 void check_fem_soils(const FemConfig& fem, Findings& found) {
   check_fem_scheme(fem, found);
-  const double water = fem.water ? fem.water->density : 1000.0;
   for (const auto& [name, m] : fem.materials) {
-    const std::string where = "materials." + name;
-    judge(where + ".density", m.density, 1.0, "kg/m3", kDensity, kUnitHint, found);
-    const double n = m.void_ratio / (1.0 + m.void_ratio);
-    // Saturated, as the program takes it; soil that is drained or has no water may be dry.
-    double grains = (m.density - n * water) / (1.0 - n);
-    if (m.drained || !fem.water) grains = std::clamp(2650.0, grains, m.density / (1.0 - n));
-    judge(fmt::format("{}: density of the grains that density {:g} kg/m3 and void_ratio {:g} imply",
-                      where, m.density, m.void_ratio),
-          grains, 1.0, "kg/m3", kGrains, "density is that of grains and water together; check both",
-          found);
-    for (const double k : m.permeability)
-      if (is_set(k)) judge(where + ".permeability", k, 1.0, "m/s", kPermeability, kUnitHint, found);
-    check_law(where, m, found);
+    check_soil("materials." + name, m, fem, found);
+    check_law("materials." + name, m, found);
   }
   if (fem.base.shear_wave_velocity)
     judge("base.shear_wave_velocity", *fem.base.shear_wave_velocity, 1.0, "m/s", kShearWave,
           "it is that of the rock below the base", found);
+  if (fem.base.density)
+    judge("base.density", *fem.base.density, 1.0, "kg/m3", kRockDensity,
+          "it is that of the rock below the base, and decides how much of a wave leaves", found);
   if (fem.water) {
     judge("water.bulk_modulus", fem.water->bulk_modulus, 1e6, "MPa", kWaterStiffness,
           "pure water has 2200 MPa, with air in it less", found);
@@ -260,6 +340,7 @@ void check_water(const FemConfig& fem, const QuadMesh& mesh, Findings& found) {
         "water.table: stands at y = {:.4g} m, {:.3g} m above the highest point of the section: all "
         "of it is under water.",
         highest, highest - e.top));
+  check_water_downstream(fem, mesh, found);
   if (!(highest > e.bottom))
     found.warnings.push_back(fmt::format(
         "water.table: stands below the section (at most at y = {:.4g} m, the section begins at "

@@ -86,6 +86,12 @@ void check_pond(const TransferRuleConfig& rule, const QuadMesh& mesh,
         "pond_surface: y = {:g} m does not lie above the bottom of the liquefiable soil at {:g} m: "
         "all depths of liquefaction will be 0.",
         rule.pond_surface, bottom));
+  else if (rule.pond_surface < top - 0.5 * height)
+    found.warnings.push_back(fmt::format(
+        "pond_surface: y = {:g} m lies {:.3g} m below the top of the liquefiable soil, which is "
+        "{:.3g} m high: depths of liquefaction count from there, and what liquefies above it "
+        "counts for nothing.",
+        rule.pond_surface, top - rule.pond_surface, height));
   else if (rule.pond_surface > top + height)
     found.warnings.push_back(
         fmt::format("pond_surface: y = {:g} m lies {:g} m above the liquefiable soil, which is "

@@ -2,6 +2,7 @@
 #include "fem/config.hpp"
 #include "model/history_material.hpp"
 #include "model/section_mesh.hpp"
+#include "model/zone.hpp"
 #include "mpm/run/flow_config.hpp"
 #include "report/config.hpp"
 #include "transfer/map/map_config.hpp"
@@ -93,9 +94,27 @@ void check_map_names(const MapConfig& map, const SectionMesh& section,
                      const std::vector<HistoryMaterial>& materials,
                      const std::optional<ZoneConfig>& zone, Findings& found);
 
+/// Whether the shaking can liquefy what may liquefy.
+void check_liquefiable(const FemConfig& fem, const TransferRuleConfig& rule,
+                       const SectionMesh& section, Findings& found);
+
+/// How near soil has come to liquefying that did not: whether a safe dam or a wrong number is the
+/// reason shows there. A sentence after a blank.
+std::string how_near(const LiquefactionZone& zone, const RuConfig& r_u);
+
 /// Soils and water of the finite elements.
 void check_fem_soils(const FemConfig& fem, Findings& found);
 void check_water(const FemConfig& fem, const QuadMesh& mesh, Findings& found);
+
+/// Frequencies of a motion, as far as they are known before it runs.
+struct MotionBand {
+  std::optional<double> mean_period;  ///< [s]
+  std::optional<double> highest;      ///< below which four fifths of its energy lie [Hz]
+};
+/// Elements over the height of the section, and in the waves of the motion; the base against the
+/// soil on it.
+void check_waves(const FemConfig& fem, const SectionMesh& section, const MotionBand& band,
+                 Findings& found);
 
 /// How the ends of the section hold it.
 void check_sides(const FemConfig& fem, const QuadMesh& mesh, Findings& found);

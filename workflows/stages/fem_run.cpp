@@ -90,12 +90,14 @@ struct FemRun {
     p.shakes = true;
     p.end = config.end ? config.end : p.motion_end;
     p.water = config.water;
+    p.fem = std::make_shared<const FemConfig>(config);
     if (p.stop && p.end) check_transfer_time(*p.stop, *p.end, "stop_at_transfer.", found);
     if (!p.section) return p;
     found.work = shaking_work(config, p.section->mesh, p.end, config.stop_at_transfer.has_value());
     check_water(config, p.section->mesh, found);
     check_sides(config, p.section->mesh, found);
     check_recording(config, p.section->mesh, p.end, p.mean_period, found);
+    check_waves(config, *p.section, {p.mean_period, p.top_frequency}, found);
     (void)fem::build_model(*p.section, config);  // names, sets and ends against the mesh
     p.materials = fem::history_materials(*p.section, config);
     if (config.stop_at_transfer) try {

@@ -25,7 +25,8 @@ std::vector<std::string> zone_warnings(const LiquefactionZone& zone, const ZoneC
     if (note.starts_with("r_u reaches") || note.starts_with("automatic."))
       warnings.push_back(note + ".");
   if (liquefied == 0)
-    warnings.emplace_back("no element has liquefied at the transfer: nothing weakens the dam.");
+    warnings.push_back("no element has liquefied at the transfer: nothing weakens the dam." +
+                       how_near(zone, config.r_u));
   constexpr double kMany = 0.5, kSome = 0.05;
   if (static_cast<double>(strong) > kSome * static_cast<double>(liquefied))
     warnings.push_back(
@@ -78,6 +79,7 @@ struct ZoneStage {
     if (p.materials.empty()) return p;
     (void)zone_parts(p.section->mesh, p.materials, config);
     check_pond(config, p.section->mesh, p.materials, found);
+    if (p.fem && found_from_r_u(config.zone)) check_liquefiable(*p.fem, config, *p.section, found);
     return p;
   }
   static StageResult run(const RunContext& context, const Config& config, const Inputs& in,
