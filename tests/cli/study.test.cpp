@@ -57,7 +57,7 @@ TEST_CASE("a study runs, is then done, and tells of itself", "[cli]") {
   CHECK(lines_of(table) == 3);
   CHECK_THAT(table, Contains("base,mean,0,done") && Contains("base,elastic,0,done"));
   CHECK(std::filesystem::exists(scratch / "runs/s/study.html"));
-  CHECK_THAT(o.err, Contains("warning: shake: gravity: total vertical") && Contains("(2 rows"));
+  CHECK_THAT(o.err, Contains("warning: shake: gravity: the total vertical") && Contains("(2 rows"));
   o = call(scratch, "study run s.yaml");
   CHECK(o.code == 0);
   CHECK_THAT(o.out, Contains("2 stages, 2 of them done") && !Contains("/2 shake"));
