@@ -11,8 +11,7 @@ class TemporaryFolder {
  public:
   TemporaryFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "flowslide-XXXXXX").string();
-    if (!::mkdtemp(name.data()))
-      throw FileError("the folder '" + name + "' cannot be made");
+    if (!::mkdtemp(name.data())) throw FileError("the folder '" + name + "' cannot be made");
     path_ = name;
   }
   ~TemporaryFolder() {
