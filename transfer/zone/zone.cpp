@@ -145,7 +145,7 @@ void note_large_r_u(LiquefactionZone& zone, const ZoneRecorder& record) {
   if (!(r.value > kPossible)) return;
   const auto n = static_cast<std::size_t>(r.node);
   zone.notes.push_back(fmt::format(
-      "r_u reaches {:.2g} at node {} ({:.4g}, {:.4g}) m at {:.4g} s: more than the soil above "
+      "r_u reaches {:.2g} at node {} ({:.6g}, {:.6g}) m at {:.4g} s: more than the soil above "
       "weighs, noise of the pore pressure there or too small an initial stress",
       r.value, record.mesh().node_tags[n], record.mesh().nodes[n][0], record.mesh().nodes[n][1],
       r.time));

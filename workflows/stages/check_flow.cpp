@@ -278,7 +278,7 @@ void check_ground(const FlowConfig& flow, const Soil& soil, Findings& found) {
   }
   if (deepest > 0.5 * flow.cell)
     refuse(found,
-           "ground.surface: soil at ({:.4g}, {:.4g}) m lies {:.3g} m below it (it would be thrown "
+           "ground.surface: soil at ({:.6g}, {:.6g}) m lies {:.3g} m below it (it would be thrown "
            "out) lower the surface or raise the box of the transfer",
            where[0], where[1], deepest);
   const double free = lowest - 2.0 * flow.cell;

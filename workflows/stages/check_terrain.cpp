@@ -72,7 +72,7 @@ void check_heights(const mpm::HeightField& f, const FlowConfig& flow, const Soil
       const double above = c[1] - f.at(c[0], y);
       if (std::isnan(above)) {
         found.errors.push_back(fmt::format(
-            "ground.terrain: under the soil at ({:.4g}, {:.4g}) m the terrain has no height, see "
+            "ground.terrain: under the soil at ({:.6g}, {:.6g}) m the terrain has no height, see "
             "{} "
             "(it would fall for ever) fill the gap in the file, or check origin and heading",
             c[0], y, f.name_place(c[0], y)));
@@ -80,7 +80,7 @@ void check_heights(const mpm::HeightField& f, const FlowConfig& flow, const Soil
       }
       if (above < -0.5 * flow.cell) {
         found.errors.push_back(fmt::format(
-            "ground.terrain: soil at x = {:.4g} m, height {:.4g} m lies {:.3g} m below the terrain "
+            "ground.terrain: soil at x = {:.6g} m, height {:.6g} m lies {:.3g} m below the terrain "
             "(it would be thrown out) check level, or raise the box of the transfer",
             c[0], c[1], -above));
         return;

@@ -135,7 +135,7 @@ void warn_of_waves(const std::vector<Passed>& all, double Passed::*size, double 
   if (coarse <= kMany * whole) return;
   warn(found,
        "{} of {} elements are too {} for the motion: {} {:.2g} Hz, a wave length of {:.3g} m in "
-       "element {} at ({:.4g}, {:.4g}) m, where shear waves go with {:.0f} m/s. It is {:.3g} m {}, "
+       "element {} at ({:.6g}, {:.6g}) m, where shear waves go with {:.0f} m/s. It is {:.3g} m {}, "
        "{:.2g} elements in a wave, and with fewer than {:g} the shaking that passes is not that of "
        "the motion. Take {:.2g} m or less.",
        count, all.size(), what, which, frequency, worst->speed / frequency,
@@ -165,7 +165,7 @@ void check_waves(const FemConfig& fem, const SectionMesh& section, const MotionB
   if (stiff->speed > rock)
     warn(found,
          "base.shear_wave_velocity: {:g} m/s is less than that of the soil on it, {:.0f} m/s in "
-         "element {} at ({:.4g}, {:.4g}) m: waves would leave into the base as into a softer soil. "
+         "element {} at ({:.6g}, {:.6g}) m: waves would leave into the base as into a softer soil. "
          "Is it that of the rock, in m/s, and is the stiffness of the soil right?",
          rock, stiff->speed, section.mesh.element_tags[stiff->element], stiff->centre[0],
          stiff->centre[1]);

@@ -11,7 +11,7 @@ namespace flowslide {
 namespace {
 
 std::string span_text(const Extent& e) {
-  return fmt::format("x = {:.4g} to {:.4g} m and y = {:.4g} to {:.4g} m", e.left, e.right, e.bottom,
+  return fmt::format("x = {:.6g} to {:.6g} m and y = {:.6g} to {:.6g} m", e.left, e.right, e.bottom,
                      e.top);
 }
 

@@ -27,7 +27,7 @@ void warn_of_wall(const FlowConfig& c, double front, std::vector<std::string>& w
   const auto look = [&](const char* what, const std::optional<double>& at) {
     if (at && front > *at - 2.0 * c.cell)
       warnings.push_back(fmt::format(
-          "{}: the front has come to x = {:.4g} m, and the model ends at {:.4g} m: the runout is "
+          "{}: the front has come to x = {:.6g} m, and the model ends at {:.6g} m: the runout is "
           "that of the model, and may be larger. Move it downstream.",
           what, front, *at));
   };
