@@ -31,7 +31,7 @@ std::vector<Headline> headlines(const ReportFacts& f) {
   Headline runout{"runout_m", "runout", "m"};
   // How far the front stopped before the toe says whether the toe is the right one.
   if (f.runout == 0.0)
-    runout.note = fmt::format("the front, at x = {:.6g} m, is {:.4g} m short of the toe", f.front,
+    runout.note = fmt::format("the front, at x = {:.4g} m, is {:.4g} m short of the toe", f.front,
                               f.toe - f.front);
   std::vector<Headline> all{std::move(runout)};
   for (const auto& [window, depth] : f.liquefaction_depth)
