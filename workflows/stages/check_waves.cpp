@@ -74,8 +74,8 @@ std::vector<Passed> passed_elements(const FemConfig& fem, const SectionMesh& sec
     p.centre = centroid(quad);
     const double top = surface_above(section, surface, p.centre[0]);
     if (!is_set(top)) continue;
-    const auto x = std::ranges::minmax({quad[0][0], quad[1][0], quad[2][0], quad[3][0]});
-    p.width = x.max - x.min;
+    const auto [left, right] = std::minmax({quad[0][0], quad[1][0], quad[2][0], quad[3][0]});
+    p.width = right - left;
     p.height = area(quad) / p.width;
     p.speed = speed_at_rest(fem, *m->second, p.centre, top);
     all.push_back(p);
@@ -94,8 +94,8 @@ int rows_of(const QuadMesh& mesh) {
     int rows = 0;
     for (std::size_t e = 0; e < mesh.num_elements(); ++e) {
       const auto quad = corners(mesh, mesh.nodes, e);
-      const auto span = std::ranges::minmax({quad[0][0], quad[1][0], quad[2][0], quad[3][0]});
-      rows += x > span.min && x < span.max;
+      const auto [left, right] = std::minmax({quad[0][0], quad[1][0], quad[2][0], quad[3][0]});
+      rows += x > left && x < right;
     }
     most = std::max(most, rows);
   }
