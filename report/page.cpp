@@ -126,6 +126,15 @@ std::string settings_html(const std::vector<ToldStage>& stages) {
 
 std::string_view page_style() { return kPageStyle; }
 
+std::optional<PageElement> find_element(std::string_view html, std::string_view open,
+                                        std::string_view close, std::size_t from) {
+  const std::size_t at = html.find(open, from);
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::size_t begin = at + open.size(), end = html.find(close, begin);
+  if (end == std::string_view::npos) return std::nullopt;
+  return PageElement{begin, end};
+}
+
 std::string in_script(const std::string& json) {
   std::string out;
   out.reserve(json.size());
@@ -162,8 +171,8 @@ std::string report_page(const ReportInputs& in, const ReportConfig& config,
   if (!in.stages.empty()) out += settings_html(in.stages);
   out +=
       "</main>\n<footer>Written by flowslide. This file is complete: it loads nothing.</footer>\n";
-  out += "<script type=\"application/json\" id=\"run\">" + in_script(data.json) + "</script>\n";
-  out += "<script type=\"text/plain\" id=\"arrays\">" + data.arrays.text() + "</script>\n";
+  out += std::string(kPageRun) + in_script(data.json) + "</script>\n";
+  out += std::string(kPageArrays) + data.arrays.text() + "</script>\n";
   out += "<script>" + std::string(kPageScript) + "</script>\n</body>\n</html>\n";
   return out;
 }

@@ -1,6 +1,7 @@
 #include "report/page_arrays.hpp"
 
 #include "core/check.hpp"
+#include "report/page_levels.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,41 +12,15 @@
 namespace flowslide {
 namespace {
 
-/// Small differences of either sign become small numbers.
-template <class T>
-T zigzag(T difference) {
-  constexpr int top = 8 * sizeof(T) - 1;
-  const T sign = difference >> top ? static_cast<T>(-1) : T{0};
-  return static_cast<T>(static_cast<T>(difference << 1) ^ sign);
-}
-
-/// Low bytes of all numbers, then high bytes: each compresses better among its like.
-template <class T>
-void append_planes(std::string& out, const std::vector<T>& numbers) {
-  for (std::size_t byte = 0; byte < sizeof(T); ++byte)
-    for (const T number : numbers) out += static_cast<char>((number >> (8 * byte)) & 0xff);
-}
-
-template <class T>
-void append(std::string& out, std::span<const double> values, std::size_t rows, double lowest,
-            double step) {
-  constexpr T unset = static_cast<T>(-1);
-  const std::size_t columns = values.size() / rows;
-  std::vector<T> before(columns, T{0}), row(columns), coded;
-  coded.reserve(values.size());
-  for (std::size_t r = 0; r < rows; ++r) {
-    T left = 0, left_before = 0;
-    for (std::size_t c = 0; c < columns; ++c) {
-      const double value = values[r * columns + c];
-      row[c] = std::isnan(value) ? unset : static_cast<T>(std::lround((value - lowest) / step));
-      const T predicted = static_cast<T>(before[c] + left - left_before);
-      coded.push_back(zigzag(static_cast<T>(row[c] - predicted)));
-      left = row[c];
-      left_before = before[c];
-    }
-    std::swap(before, row);
-  }
-  append_planes(out, coded);
+std::vector<std::uint32_t> levels_of(std::span<const double> values, double lowest, double step,
+                                     std::uint32_t unset) {
+  std::vector<std::uint32_t> levels;
+  levels.reserve(values.size());
+  for (const double value : values)
+    levels.push_back(std::isnan(value)
+                         ? unset
+                         : static_cast<std::uint32_t>(std::lround((value - lowest) / step)));
+  return levels;
 }
 
 }  // namespace
@@ -72,11 +47,11 @@ void PageArrays::add(std::string_view name, std::span<const double> values, std:
   const double levels = bits == Bits::eight ? 254.0 : 65534.0;
   step = std::max(step, (high - low) / levels);
   if (!(step > 0.0)) step = 1.0;
-  entries_.push_back({std::string(name), bits, rows, values.size() / rows, low, step});
-  if (bits == Bits::eight)
-    append<std::uint8_t>(bytes_, values, rows, low, step);
-  else
-    append<std::uint16_t>(bytes_, values, rows, low, step);
+  const std::size_t columns = values.size() / rows;
+  entries_.push_back({std::string(name), bits, rows, columns, low, step});
+  const bool one_byte = bits == Bits::eight;
+  bytes_ += coded_levels(levels_of(values, low, step, one_byte ? 0xffu : 0xffffu), columns,
+                         one_byte ? 1 : 2);
 }
 
 std::string PageArrays::index() const {

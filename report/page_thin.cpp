@@ -3,6 +3,7 @@
 #include "core/check.hpp"
 #include "report/page.hpp"
 #include "report/page_arrays.hpp"
+#include "report/page_levels.hpp"
 
 #include <algorithm>
 #include <array>
@@ -24,21 +25,8 @@ constexpr std::size_t kLargestPage = 1u << 28;  ///< bytes of all that is unpack
 /// Of one row per state.
 constexpr std::array kOfStates{"points.x", "points.y", "points.speed", "points.strength"};
 
-/// Where the text of a page's element is; see report_page().
-struct PageElement {
-  std::size_t begin = 0, size = 0;
-};
-
-std::optional<PageElement> find_element(std::string_view html, std::string_view open) {
-  const std::size_t at = html.find(open);
-  if (at == std::string_view::npos) return std::nullopt;
-  const std::size_t begin = at + open.size(), end = html.find("</script>", begin);
-  if (end == std::string_view::npos) return std::nullopt;
-  return PageElement{begin, end - begin};
-}
-
 std::optional<PageElement> find_run(std::string_view html) {
-  return find_element(html, "<script type=\"application/json\" id=\"run\">");
+  return find_element(html, kPageRun, "</script>");
 }
 
 [[noreturn]] void damaged(std::string_view what) {
@@ -76,44 +64,11 @@ std::string unpacked_bytes(std::string_view text, std::size_t size) {
   return bytes;
 }
 
-/// An array of the page as the levels that were stored; PageArrays::add tells how.
+/// An array of the page.
 struct Levels {
   std::size_t rows = 0, columns = 0, width = 1;  ///< width: bytes of a number
   [[nodiscard]] std::size_t bytes() const { return rows * columns * width; }
-  [[nodiscard]] std::uint32_t mask() const { return width == 2 ? 0xffffu : 0xffu; }
 };
-
-std::vector<std::uint32_t> decoded(std::string_view bytes, const Levels& a) {
-  const std::size_t n = a.rows * a.columns;
-  std::vector<std::uint32_t> level(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    std::uint32_t z = 0;
-    for (std::size_t k = 0; k < a.width; ++k)
-      z |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[i + k * n])) << (8 * k);
-    const std::uint32_t difference = z & 1 ? ~(z >> 1) : z >> 1;
-    const bool above = i >= a.columns, left = i % a.columns > 0;
-    level[i] = ((above ? level[i - a.columns] : 0) + (left ? level[i - 1] : 0) -
-                (above && left ? level[i - a.columns - 1] : 0) + difference) &
-               a.mask();
-  }
-  return level;
-}
-
-std::string encoded(const std::vector<std::uint32_t>& level, const Levels& a) {
-  const std::size_t n = a.rows * a.columns;
-  std::string bytes(a.bytes(), '\0');
-  const std::uint32_t top = (a.mask() >> 1) + 1;
-  for (std::size_t i = 0; i < n; ++i) {
-    const bool above = i >= a.columns, left = i % a.columns > 0;
-    const std::uint32_t predicted = (above ? level[i - a.columns] : 0) + (left ? level[i - 1] : 0) -
-                                    (above && left ? level[i - a.columns - 1] : 0);
-    const std::uint32_t difference = (level[i] - predicted) & a.mask();
-    const std::uint32_t z = ((difference << 1) ^ (difference & top ? a.mask() : 0u)) & a.mask();
-    for (std::size_t k = 0; k < a.width; ++k)
-      bytes[i + k * n] = static_cast<char>((z >> (8 * k)) & 0xff);
-  }
-  return bytes;
-}
 
 /// The rows that stay.
 std::vector<std::size_t> evenly(std::size_t of, std::size_t most) {
@@ -151,7 +106,7 @@ class Thinning {
     const bool times = name == "points.t";
     if (!times && std::find(kOfStates.begin(), kOfStates.end(), name) == kOfStates.end())
       return std::string(bytes);
-    const std::vector<std::uint32_t> all = decoded(bytes, a);
+    const std::vector<std::uint32_t> all = decoded_levels(bytes, a.columns, a.width);
     std::vector<std::uint32_t> some;
     for (const std::size_t k : chosen_)
       if (times)
@@ -161,7 +116,7 @@ class Thinning {
     (times ? a.columns : a.rows) = chosen_.size();
     entry["rows"] = a.rows;
     entry["columns"] = a.columns;
-    return encoded(some, a);
+    return coded_levels(some, a.columns, a.width);
   }
 
   ThinJson& run_;
@@ -174,7 +129,7 @@ class Thinning {
 std::size_t page_states(std::string_view html) {
   const auto run = find_run(html);
   if (!run) return 0;
-  const auto json = nlohmann::json::parse(html.substr(run->begin, run->size), nullptr, false);
+  const auto json = nlohmann::json::parse(html.substr(run->begin, run->size()), nullptr, false);
   if (!json.is_object() || !json.contains("points")) return 0;
   const auto& points = json["points"];
   if (!points.is_object() || !points.contains("frames")) return 0;
@@ -183,10 +138,10 @@ std::size_t page_states(std::string_view html) {
 
 std::string thinned_page(const std::string& html, std::size_t states) {
   const auto run = find_run(html);
-  const auto arrays = find_element(html, "<script type=\"text/plain\" id=\"arrays\">");
+  const auto arrays = find_element(html, kPageArrays, "</script>");
   if (!run || !arrays || page_states(html) <= std::max<std::size_t>(states, 2)) return html;
   try {
-    ThinJson json = ThinJson::parse(html.substr(run->begin, run->size));
+    ThinJson json = ThinJson::parse(html.substr(run->begin, run->size()));
     std::size_t size = 0;
     for (const ThinJson& entry : json["arrays"]) {
       const Levels a = Thinning::levels_of(entry);
@@ -195,13 +150,13 @@ std::string thinned_page(const std::string& html, std::size_t states) {
       size += a.bytes();
       if (size > kLargestPage) damaged("its arrays are too large");
     }
-    const std::string_view text = std::string_view(html).substr(arrays->begin, arrays->size);
+    const std::string_view text = std::string_view(html).substr(arrays->begin, arrays->size());
     const std::string bytes =
         Thinning(json, unpacked_bytes(text, size), std::max<std::size_t>(states, 2)).write();
     std::string out = html;
     // the later one first: the place of the earlier stays
-    out.replace(arrays->begin, arrays->size, packed(bytes));
-    out.replace(run->begin, run->size, in_script(json.dump()));
+    out.replace(arrays->begin, arrays->size(), packed(bytes));
+    out.replace(run->begin, run->size(), in_script(json.dump()));
     return out;
   } catch (const nlohmann::json::exception& e) {
     damaged(e.what());

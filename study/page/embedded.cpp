@@ -1,5 +1,6 @@
 #include "study/page/embedded.hpp"
 
+#include "core/check.hpp"
 #include "core/files.hpp"
 #include "report/page.hpp"
 #include "report/page_arrays.hpp"
@@ -16,22 +17,6 @@ namespace flowslide::study {
 namespace {
 
 constexpr std::uint64_t kLargestRunPage = 256u << 20;
-constexpr std::string_view kArrays = "<script type=\"text/plain\" id=\"arrays\">";
-
-/// Where the text of an element begins and ends; `begin` is npos where there is none.
-struct ElementText {
-  std::size_t begin = std::string_view::npos, end = 0;
-};
-
-ElementText text_of(std::string_view html, std::string_view open, std::string_view close,
-                    std::size_t from) {
-  const std::size_t at = html.find(open, from);
-  if (at == std::string_view::npos) return {};
-  const std::size_t end = html.find(close, at);
-  if (end == std::string_view::npos) return {};
-  return {at + open.size(), end};
-}
-
 class Embedder {
  public:
   std::string add(std::string html) {
@@ -39,29 +24,30 @@ class Embedder {
     const std::string id = fmt::format("run-{}", ++pages_);
     // what parts are put together at must not stand in them
     std::replace(html.begin(), html.end(), '\0', ' ');
-    const ElementText style = text_of(html, "<style>", "</style>", 0);
-    const ElementText arrays = text_of(html, kArrays, "</script>", style.end);
-    const ElementText script = text_of(html, "<script>", "</script>", arrays.end);
-    const auto cut = [&](std::size_t begin, std::size_t end) {
-      return html.substr(begin, end - begin);
-    };
-    constexpr std::size_t none = std::string_view::npos;
-    if (style.begin == none || arrays.begin == none || script.begin == none) {
+    const auto style = find_element(html, "<style>", "</style>");
+    const auto arrays =
+        style ? find_element(html, kPageArrays, "</script>", style->end) : std::nullopt;
+    const auto script =
+        arrays ? find_element(html, "<script>", "</script>", arrays->end) : std::nullopt;
+    if (!script) {
       runs_.elements +=
           fmt::format("<script type='text/plain' id='{}'>{}.</script>\n", id, packed(html));
       return id;
     }
-    std::string words = cut(0, style.begin);
+    const auto cut = [&](std::size_t begin, std::size_t end) {
+      return html.substr(begin, end - begin);
+    };
+    std::string words = cut(0, style->begin);
     for (const auto& [begin, end] :
-         {std::pair{style.end, arrays.begin}, std::pair{arrays.end, script.begin},
-          std::pair{script.end, html.size()}})
+         {std::pair{style->end, arrays->begin}, std::pair{arrays->end, script->begin},
+          std::pair{script->end, html.size()}})
       words += '\0' + cut(begin, end);
-    const std::string style_id = shared(cut(style.begin, style.end), runs_.styles);
-    const std::string script_id = shared(cut(script.begin, script.end), runs_.scripts);
+    const std::string style_id = shared(cut(style->begin, style->end), runs_.styles);
+    const std::string script_id = shared(cut(script->begin, script->end), runs_.scripts);
     runs_.elements += fmt::format(
         "<script type='text/plain' id='{}' data-style='{}' data-script='{}'>{}.{}</script>\n", id,
         style_id, script_id, packed(words),
-        std::string_view(html).substr(arrays.begin, arrays.end - arrays.begin));
+        std::string_view(html).substr(arrays->begin, arrays->size()));
     return id;
   }
 
@@ -86,10 +72,11 @@ class Embedder {
 }  // namespace
 
 EmbeddedRuns embed_runs(const std::filesystem::path& folder, std::vector<std::string>& reports,
-                        std::size_t states) {
+                        std::size_t states, const std::atomic<bool>* stop) {
   Embedder embedder;
   std::map<std::string, std::string> ids;
   for (std::string& report : reports) {
+    if (stop && stop->load()) throw Interrupted("stopped; the same command writes the whole page.");
     if (report.empty()) continue;
     const auto [at, is_new] = ids.try_emplace(report);
     if (is_new) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -16,8 +17,8 @@ struct EmbeddedRuns {
 /// id of that. Rows that share a page share the element. What a page has of its own, but for its
 /// numbers, is packed; style and script are there once for all pages of one program. A player
 /// gets at most `states` states; 0: all that its page has. Throws FileError, and InputError for a
-/// page that is damaged.
+/// page that is damaged, Interrupted when it is to stop.
 EmbeddedRuns embed_runs(const std::filesystem::path& folder, std::vector<std::string>& reports,
-                        std::size_t states = 0);
+                        std::size_t states = 0, const std::atomic<bool>* stop = nullptr);
 
 }  // namespace flowslide::study

@@ -114,7 +114,7 @@ WholePage write_whole_page(const fs::path& folder, const Plan& plan, const Table
                           : whole.not_done)
         .push_back(plan.rows[r].number);
   }
-  about.embedded = embed_runs(folder, about.reports, states);
+  about.embedded = embed_runs(folder, about.reports, states, stop);
   whole.states = about.embedded->states;
   const Page page = make_page(plan, table, analyse(plan, table, stop), about);
   whole.bytes = page.html.size();

@@ -100,6 +100,9 @@ TEST_CASE("Pages of runs are put into the page once, and what they share once", 
   e.bench.scratch.write("b.html", page_of("two"));
   e.bench.scratch.write("c.html", "<p>of an earlier program</p>");
   std::vector<std::string> reports{"a.html", "", "b.html", "a.html", "c.html"};
+  const std::atomic<bool> stop = true;
+  auto untouched = reports;
+  CHECK_THROWS_AS(embed_runs(e.bench.scratch / "", untouched, 0, &stop), Interrupted);
   const EmbeddedRuns runs = embed_runs(e.bench.scratch / "", reports);
   CHECK(reports == std::vector<std::string>{"run-1", "", "run-2", "run-1", "run-3"});
   CHECK(runs.scripts == std::vector{policy_hash("run()")});
