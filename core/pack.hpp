@@ -188,6 +188,15 @@ inline Pack gather_pack(const double* from, const std::int32_t* index) {
 #endif
 }
 
+/// The same for `count` indices; lanes beyond are 0, and no index beyond is read: another thread
+/// may be writing it.
+inline Pack gather_pack(const double* from, const std::int32_t* index, int count) {
+  if (count == Pack::lanes) return gather_pack(from, index);
+  Pack r = 0.0;
+  for (int i = 0; i < count; ++i) r.v[i] = from[index[i]];
+  return r;
+}
+
 inline double max_lanes(double x) { return x; }
 inline double max_lanes(Pack x) {
   double s = x.v[0];

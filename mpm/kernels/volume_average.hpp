@@ -74,7 +74,7 @@ template <int Dim, class Averaged, class Value>
       const int count = std::min<int>(Pack::lanes, run.last - q);
       const std::int32_t k = q - tile.first;
       const Pack change =
-          on ? gather_pack(s.mean.data(), s.span + k) - load_pack(s.value.data() + k, count)
+          on ? gather_pack(s.mean.data(), s.span + k, count) - load_pack(s.value.data() + k, count)
              : Pack(0.0);
       store_pack(s.change.data() + k, change, count);
     }

@@ -211,7 +211,7 @@ void prepare(Simulation<Dim>& s, StepScratch<Dim>& scratch, bool rebin) {
     scratch.windows.resize(s.tiling.tiles.size() * kWindowNodes<Dim, Basis>);
   });
   find_points(s.loads, s.points, s.tiling);
-  scratch.span.resize(s.points.size() + Pack::lanes);
+  scratch.span.resize(s.points.size());
   scratch.scattered = false;
   visit_basis(s.settings.basis, [&]<class Basis>(Basis) { group_tiles<Dim, Basis>(s, scratch); });
   visit_basis(s.settings.basis, [&]<class Basis>(Basis) {
