@@ -175,9 +175,7 @@ struct Opened {
 int status(const StudyArguments& args) {
   const Opened study(args.out);
   StudyDisplay(study.plan, study.progress, args.json ? StudyOutput::json : StudyOutput::lines)
-      .status(study.folder, study::bytes_of(study.folder / "stages"));
-  const std::string queue = args.json ? "" : queue_text(study.folder);
-  if (!queue.empty()) fmt::print("slurm: {}\n", queue);
+      .status(study.folder, study::bytes_of(study.folder / "stages"), queue_of(study.folder));
   return 0;
 }
 
@@ -210,27 +208,23 @@ void tell_missing(const study::WholePage& whole, const study::Plan& plan, const 
         plan.file.string(), (folder / "stages").string()));
 }
 
-/// What mail takes, and a browser opens without a wait.
-constexpr double kLargestToSend = 60e6;
-
 int report_whole(const StudyArguments& args, const Opened& study, const study::Table& table) {
-  const study::WholePage whole = write_whole_page(
-      study.folder, study.plan, table, static_cast<std::size_t>(args.frames), &stop_on_signal());
+  const study::WholeSize size{.states = static_cast<std::size_t>(args.frames)};
+  const study::WholePage whole =
+      write_whole_page(study.folder, study.plan, table, size, &stop_on_signal());
   const double bytes = static_cast<double>(whole.bytes);
   fmt::print("{} ({:.1f} MB, with the runs of {} of {} rows)\n", whole.path.string(), bytes / 1e6,
              whole.rows, study.plan.rows.size());
   tell_missing(whole, study.plan, study.folder);
-  if (bytes > kLargestToSend) {
-    // Fewer states lie farther apart and pack worse: the size goes about with the root of their
-    // number (48 states of 134 dams 73.9 MB, 36 of them 65.5 MB).
-    const double share = 0.97 * kLargestToSend / bytes;
-    const double fewer = share * share * static_cast<double>(whole.states);
-    print_warning(fmt::format(
-        "{} is larger than {:.0f} MB (mail and some browsers do not take it). Write it with fewer "
-        "states of each player: --frames {:.0f}, where there are up to {} now",
-        whole.path.filename().string(), kLargestToSend / 1e6, std::max(2.0, std::floor(fewer)),
-        whole.states));
-  }
+  if (args.frames == 0 && whole.states < whole.all_states)
+    fmt::print("players have up to {} of {} states, for less than {:.0f} MB; all: --frames {}\n",
+               whole.states, whole.all_states, size.bytes / 1e6, whole.all_states);
+  if (bytes > size.bytes)
+    print_warning(
+        fmt::format("{} is larger than {:.0f} MB (mail and some browsers do not take it). "
+                    "Write it with fewer states of each player, --frames N; there are up "
+                    "to {} now",
+                    whole.path.filename().string(), size.bytes / 1e6, whole.states));
   return 0;
 }
 
@@ -300,7 +294,8 @@ void add_study(CLI::App& app, Command& action) {
   report_command->add_flag("--whole", report_args->whole,
                            "also study-whole.html, with all runs in it");
   report_command
-      ->add_option("--frames", report_args->frames, "states of each player in it, at most [all]")
+      ->add_option("--frames", report_args->frames,
+                   "states of each player in it, at most [for 60 MB]")
       ->check(CLI::Range(2, 1000))
       ->needs("--whole");
   const auto [clean_command, clean_args] =

@@ -196,16 +196,16 @@ int run_study_part(const std::string& file, std::size_t task) {
   return done == all ? 0 : 1;
 }
 
-std::string queue_text(const fs::path& folder) {
+std::optional<StudyQueue> queue_of(const fs::path& folder) {
   const study::Scheduler scheduler = study::slurm({}, &stop_on_signal());
   std::error_code error;
-  if (!fs::exists(folder / scheduler.name, error)) return "";
+  if (!fs::exists(folder / scheduler.name, error)) return std::nullopt;
   try {
     const study::UnderWay found = under_way(folder, scheduler, scheduler.queue());
-    if (found.jobs.empty()) return "";
-    return queue_words(found, scheduler);
+    if (found.jobs.empty()) return std::nullopt;
+    return StudyQueue{queue_words(found, scheduler), found.running, found.ending, found.waiting};
   } catch (const std::exception&) {
-    return "";  // this machine may not be of the cluster
+    return std::nullopt;  // this machine may not be of the cluster
   }
 }
 

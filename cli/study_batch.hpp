@@ -3,6 +3,8 @@
 #include "study/plan/study_file.hpp"
 #include "study/run/store.hpp"
 
+#include <optional>
+
 namespace flowslide::cli {
 
 struct SubmitOptions {
@@ -20,7 +22,7 @@ bool submit_study(const study::Plan& plan, const study::Store& store, study::Stu
 /// What a task of a job array does; its exit code.
 int run_study_part(const std::string& file, std::size_t task);
 
-/// "2 tasks run, 30 wait (squeue --me)"; empty where there is nothing of the kind or no telling.
-std::string queue_text(const std::filesystem::path& folder);
+/// None where the study was never sent, nothing is under way, or there is no telling.
+std::optional<StudyQueue> queue_of(const std::filesystem::path& folder);
 
 }  // namespace flowslide::cli

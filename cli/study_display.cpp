@@ -278,7 +278,8 @@ void StudyDisplay::end(const std::filesystem::path& folder, const study::Table& 
              (folder / "study.html").string());
 }
 
-void StudyDisplay::status(const std::filesystem::path& folder, double bytes) const {
+void StudyDisplay::status(const std::filesystem::path& folder, double bytes,
+                          const std::optional<StudyQueue>& queue) const {
   std::map<State, std::size_t> rows;
   for (const study::Row& row : plan_.rows) ++rows[progress_.row_state(row)];
   const std::size_t done = rows[State::done], failed = rows[State::failed];
@@ -290,6 +291,9 @@ void StudyDisplay::status(const std::filesystem::path& folder, double bytes) con
       list.push_back(row_json(row, progress_));
       list.back()["cause"] = cause.empty() ? Json(nullptr) : Json(cause);
     }
+    Json slurm = nullptr;
+    if (queue)
+      slurm = {{"running", queue->running}, {"ending", queue->ending}, {"waiting", queue->waiting}};
     print_json({{"study", plan_.name},
                 {"folder", folder.string()},
                 {"done", done},
@@ -298,12 +302,14 @@ void StudyDisplay::status(const std::filesystem::path& folder, double bytes) con
                 {"stages", plan_.nodes.size()},
                 {"stages_done", progress_.count(State::done)},
                 {"bytes", bytes},
+                {"slurm", slurm},
                 {"rows", list}});
     return;
   }
   for (const std::string& line : failures()) print_wrapped(stdout, "failed: ", line);
   fmt::print("{}: {} rows done, {} failed, {} open; {} of {} stages; {:.1f} MB\n", plan_.name, done,
              failed, open, progress_.count(State::done), plan_.nodes.size(), bytes / 1e6);
+  if (queue) fmt::print("slurm: {}\n", queue->words);
 }
 
 }  // namespace flowslide::cli

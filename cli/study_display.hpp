@@ -5,12 +5,19 @@
 
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace flowslide::cli {
 
 enum class StudyOutput { terminal, lines, quiet, json };
+
+/// What of a study waits or runs on a cluster.
+struct StudyQueue {
+  std::string words;                                 ///< "2 tasks run, 30 wait (squeue --me)"
+  std::size_t running = 0, ending = 0, waiting = 0;  ///< tasks
+};
 
 /// Tells on stdout how a study goes: on a terminal one line per running stage and a total that are
 /// redrawn, elsewhere a line per stage that has ended, with json an object per line. Failures go to
@@ -27,7 +34,8 @@ class StudyDisplay {
   /// Takes the lines away that are redrawn.
   void close();
   void end(const std::filesystem::path& folder, const study::Table& table) const;
-  void status(const std::filesystem::path& folder, double bytes) const;
+  void status(const std::filesystem::path& folder, double bytes,
+              const std::optional<StudyQueue>& queue) const;
 
  private:
   void ended(const study::StageEnd& end);

@@ -19,7 +19,7 @@ packages=(
   libhdf5-dev catch2 python3 python3-numpy python3-munkres python3-matplotlib
 )
 case $preset in
-  race | asan) packages+=(clang llvm libclang-rt-dev libomp-dev) ;;
+  race | asan | tidy) packages+=(clang llvm libclang-rt-dev libomp-dev) ;;
 esac
 install=(apt-get install -y --no-install-recommends)
 

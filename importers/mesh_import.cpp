@@ -5,6 +5,7 @@
 #include "importers/gmsh.hpp"
 #include "importers/mesh_edit.hpp"
 #include "importers/mesh_faults.hpp"
+#include "model/mirror.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -32,6 +33,9 @@ void Schema<MeshImportConfig>::describe(FieldVisitor& v, MeshImportConfig& c) {
   v.quantity("right", c.right, Dim::length, {}, "the same at the other end");
   v.integer("divide", c.divide, {.min = 0, .max = 4},
             "how often each element is divided in four, which halves its size");
+  v.flag("mirror", c.mirror,
+         "for a mesh with its toe on the left: x changes its sign, after `left` and `right`; sets "
+         "named left and right change their names");
 }
 
 namespace {
@@ -108,6 +112,7 @@ SectionMesh import_mesh(const MeshImportConfig& config) {
   }
   for (int i = 0; i < config.divide; ++i) divide_in_four(section);
   rename(section, config.materials);
+  if (config.mirror) mirror(section);
   check(section);
   return section;
 }

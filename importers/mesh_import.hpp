@@ -21,6 +21,7 @@ struct MeshImportConfig {
   std::map<std::string, NamedTag> materials;  ///< names for material tags of the file
   std::optional<double> left, right;          ///< x between which elements are kept [m]
   int divide = 0;                             ///< times that each element is divided in four
+  bool mirror = false;                        ///< after the rest: the file has its toe on the left
 };
 
 /// Exactly one source, a known unit. Throws InputError.

@@ -8,6 +8,7 @@
 #include "importers/recorder_rows.hpp"
 #include "importers/recorder_text.hpp"
 #include "importers/row_warnings.hpp"
+#include "model/mirror.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -136,6 +137,7 @@ FemFrame read_gravity(const Context& context, const std::function<void(double)>&
   } else {
     context.notes->push_back("gravity: no strain recorder, strain at rest is taken as zero");
   }
+  if (context.config.mirror) mirror(frame);
   return frame;
 }
 
@@ -201,6 +203,7 @@ class FrameSource {
     read_pressure(layout(2), row(2), f.stress, frame_.pore_pressure);
     read_stress(layout(3), row(3), f.stress, context_.config.sigma_zz, frame_.stress);
     read_strain(layout(4), row(4), frame_.strain);
+    if (context_.config.mirror) mirror(frame_);
     return frame_;
   }
 
@@ -262,6 +265,15 @@ std::vector<std::string> mesh_warnings(const OpenSeesConfig& config, const QuadM
                       config.mesh.nodes.path.filename().string(), problem)};
 }
 
+MeshText mesh_as_used(const OpenSeesConfig& config, double length) {
+  MeshText text = read_mesh_text(config.mesh, length);
+  if (!config.mirror) return text;
+  mirror(text.mesh);
+  text.notes.push_back(
+      "mirrored: x, horizontal motion and shear have the other sign than in the files");
+  return text;
+}
+
 std::vector<HistoryMaterial> named_materials(const OpenSeesConfig& config, const QuadMesh& mesh) {
   std::vector<HistoryMaterial> materials;
   for (const auto& [name, m] : config.materials)
@@ -282,7 +294,7 @@ ImportReport import_opensees(const OpenSeesConfig& config, const std::filesystem
   const Factors factors{unit_factor(config.units.length, Dim::length),
                         unit_factor(config.units.time, Dim::time),
                         unit_factor(config.units.stress, Dim::stress)};
-  const MeshText text = read_mesh_text(config.mesh, factors.length);
+  const MeshText text = mesh_as_used(config, factors.length);
   const std::vector<HistoryMaterial> materials = named_materials(config, text.mesh);
   ImportReport report;
   report.origin = {"OpenSees text recorders", rule_in_words(config.sigma_zz), text.notes};
@@ -331,7 +343,7 @@ ImportPreview preview_opensees(const OpenSeesConfig& config) {
   const Factors factors{unit_factor(config.units.length, Dim::length),
                         unit_factor(config.units.time, Dim::time),
                         unit_factor(config.units.stress, Dim::stress)};
-  ImportPreview preview{read_mesh_text(config.mesh, factors.length).mesh, {}, {}};
+  ImportPreview preview{mesh_as_used(config, factors.length).mesh, {}, {}};
   preview.materials = named_materials(config, preview.mesh);
   std::vector<std::string> notes;
   const Context context{config, preview.mesh, factors, &notes, &preview.warnings};

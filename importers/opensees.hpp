@@ -86,6 +86,7 @@ struct OpenSeesMaterial {
 
 struct OpenSeesConfig {
   MeshTextConfig mesh;
+  bool mirror = false;  ///< the model has its toe on the left
   std::map<std::string, OpenSeesMaterial> materials;
   OpenSeesUnits units;
   OpenSeesColumns columns;

@@ -91,6 +91,10 @@ void Schema<OpenSeesMaterial>::describe(FieldVisitor& v, OpenSeesMaterial& c) {
 
 void Schema<OpenSeesConfig>::describe(FieldVisitor& v, OpenSeesConfig& c) {
   v.group("mesh", c.mesh, "nodes and elements");
+  v.flag(
+      "mirror", c.mirror,
+      "for a model with its toe on the left: x, horizontal motion and shear change their sign, and "
+      "later stages see the section from its other side");
   v.table("materials", c.materials, "materials of the model by the names of later stages");
   v.group("units", c.units, "units of the files");
   v.group("columns", c.columns, "columns of the recorders");

@@ -24,6 +24,20 @@ std::string series_class(std::size_t series) { return fmt::format("s{}", series 
 /// Room on either side of one value.
 double beside(double value) { return std::max(0.05 * std::abs(value), 1.0); }
 
+/// A label that leaves room for the bars beside it; their titles have all of it.
+std::string short_label(const std::string& text) {
+  constexpr std::size_t kMost = 18;
+  if (text.size() <= kMost) return text;
+  std::size_t end = kMost - 1;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
+  return text.substr(0, end) + "…";
+}
+
+/// About, in pixels.
+double width_of(const std::string& label) {
+  return 8.0 + 6.5 * static_cast<double>(short_label(label).size());
+}
+
 /// Room for a plot with its axes.
 class Frame {
  public:
@@ -192,12 +206,18 @@ Svg draw_tornado(std::vector<Swing> swings, double usual_scatter, const std::str
     low = std::min({low, s.effect.low, s.effect.high});
     high = std::max({high, s.effect.low, s.effect.high});
   }
-  const double room = apart(low, high) ? 0.15 * (high - low) : beside(low);
+  const double room = apart(low, high) ? 0.02 * (high - low) : beside(low);
   low -= room;
   high += room;
-  const auto x = [&](double v) {
-    return kNames + (v - low) / (high - low) * (kWidth - kNames - 20.0);
-  };
+  // words stand outside the bars
+  double left = 0.0, right = 0.0;
+  for (const Swing& s : swings) {
+    const bool rises = s.effect.low < s.effect.high;
+    left = std::max(left, width_of(rises ? s.effect.low_label : s.effect.high_label));
+    right = std::max(right, width_of(rises ? s.effect.high_label : s.effect.low_label));
+  }
+  const double width = kWidth - kNames - 20.0 - left - right;
+  const auto x = [&](double v) { return kNames + left + (v - low) / (high - low) * width; };
   const double bottom = height - 44.0;
   for (const double v : round_numbers(low, high, 6)) {
     svg.line(x(v), 14.0, x(v), bottom, "grid");
@@ -209,15 +229,15 @@ Svg draw_tornado(std::vector<Swing> swings, double usual_scatter, const std::str
   for (const Swing& s : swings) {
     const double a = x(s.effect.low), b = x(s.effect.high), middle = 0.5 * (a + b);
     const double to_low = std::min(a, middle), to_high = std::min(b, middle);
-    svg.text(kNames - 10.0, y + 13.0, s.input, "end", "head");
+    svg.text(kNames - 10.0, y + 13.0, short_label(s.input), "end", "head");
     svg.rectangle(to_low, y, std::abs(middle - a), 18.0, "low", s.effect.low_label);
     svg.rectangle(to_high, y, std::abs(b - middle), 18.0, "high", s.effect.high_label);
-    svg.text(a, y + 32.0, s.effect.low_label, a < b ? "end" : "start");
-    svg.text(b, y + 32.0, s.effect.high_label, a < b ? "start" : "end");
+    svg.text(a, y + 32.0, short_label(s.effect.low_label), a < b ? "end" : "start");
+    svg.text(b, y + 32.0, short_label(s.effect.high_label), a < b ? "start" : "end");
     y += kRow;
   }
   if (is_set(usual_scatter)) {
-    const double length = usual_scatter / (high - low) * (kWidth - kNames - 20.0);
+    const double length = usual_scatter / (high - low) * width;
     svg.line(kNames, 12.0, kNames + length, 12.0, "fit");
     svg.text(kNames + length + 6.0, 15.0, "numerical scatter", "start");
   }

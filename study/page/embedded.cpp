@@ -19,7 +19,9 @@ namespace {
 constexpr std::uint64_t kLargestRunPage = 256u << 20;
 class Embedder {
  public:
-  std::string add(std::string html) {
+  std::string add(std::string html, std::size_t states) {
+    runs_.all_states = std::max(runs_.all_states, page_states(html));
+    if (states > 0) html = thinned_page(html, states);
     runs_.states = std::max(runs_.states, page_states(html));
     const std::string id = fmt::format("run-{}", ++pages_);
     // what parts are put together at must not stand in them
@@ -79,10 +81,7 @@ EmbeddedRuns embed_runs(const std::filesystem::path& folder, std::vector<std::st
     if (stop && stop->load()) throw Interrupted("stopped; the same command writes the whole page.");
     if (report.empty()) continue;
     const auto [at, is_new] = ids.try_emplace(report);
-    if (is_new) {
-      const std::string html = read_file(folder / report, kLargestRunPage);
-      at->second = embedder.add(states > 0 ? thinned_page(html, states) : html);
-    }
+    if (is_new) at->second = embedder.add(read_file(folder / report, kLargestRunPage), states);
     report = at->second;
   }
   return embedder.take();

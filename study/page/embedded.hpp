@@ -11,6 +11,7 @@ struct EmbeddedRuns {
   std::string elements;  ///< one per page, and what they have in common; scripts/embedded.js reads
   std::vector<std::string> scripts, styles;  ///< source expressions for the policy of the page
   std::size_t states = 0;                    ///< of the player that has most
+  std::size_t all_states = 0;                ///< that it has on its own page
 };
 
 /// Puts the page of each row, a path relative to the folder, into an element; the path becomes the

@@ -39,18 +39,26 @@ void write_page(const std::filesystem::path& folder, const Plan& plan, const Tab
 struct WholePage {
   std::filesystem::path path;
   std::size_t bytes = 0;
-  std::size_t states = 0;  ///< of the player that has most
-  std::size_t rows = 0;    ///< whose run is in it
+  std::size_t states = 0;      ///< of the player that has most
+  std::size_t all_states = 0;  ///< that it has on its own page
+  std::size_t rows = 0;        ///< whose run is in it
   // Rows whose run is not, from 1.
   std::vector<std::size_t> not_done;
   std::vector<std::size_t> no_report;  ///< of a workflow without the stage
   std::vector<std::size_t> not_kept;   ///< done, but their page is not on the disk
 };
 
-/// study-whole.html in the folder of the study: one file that can be sent, with at most so many
-/// `states` in the player of each run, or 0 for all. Throws as write_page.
+/// How much of the players is in it.
+struct WholeSize {
+  /// At most so many states in each; 0: as many as keep the file below `bytes`, though not fewer
+  /// than a dozen.
+  std::size_t states = 0;
+  double bytes = 60e6;  ///< what mail takes, and a browser opens without a wait
+};
+
+/// study-whole.html in the folder of the study: one file that can be sent. Throws as write_page.
 WholePage write_whole_page(const std::filesystem::path& folder, const Plan& plan,
-                           const Table& table, std::size_t states = 0,
+                           const Table& table, const WholeSize& size = {},
                            const std::atomic<bool>* stop = nullptr);
 
 }  // namespace flowslide::study

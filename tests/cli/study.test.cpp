@@ -115,6 +115,7 @@ TEST_CASE("a study tells programs as JSON", "[cli]") {
   CHECK(events == std::vector<std::string>{"begin", "done", "done", "end"});
   const auto status = nlohmann::json::parse(call(scratch, "study status runs/s --json").out);
   CHECK(status["done"] == 2);
+  CHECK(status["slurm"].is_null());
   CHECK(status["rows"][1]["set"][0] == "stages.shake.with.sigma_zz={rule: elastic, nu: 0.3}");
 }
 

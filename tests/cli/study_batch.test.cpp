@@ -99,6 +99,10 @@ TEST_CASE("what waits is not sent again, and status tells of it", "[cli]") {
   CHECK(slurm.sent() == sent);
   CHECK_THAT(call(slurm.scratch, "study status runs/s", slurm.before).out,
              Contains("slurm: 1 task runs, 1 waits (squeue --me)"));
+  const auto status =
+      nlohmann::json::parse(call(slurm.scratch, "study status runs/s --json", slurm.before).out);
+  CHECK(status["slurm"]["running"] == 1);
+  CHECK(status["slurm"]["waiting"] == 1);
   // One has ended without a result.
   slurm.scratch.write("queue", "7|0|R|" + script + "\n");
   const Outcome json = slurm.run("--json");

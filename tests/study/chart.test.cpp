@@ -1,6 +1,7 @@
 #include "study/page/chart.hpp"
 
 #include <limits>
+#include <regex>
 
 #include <catch2/catch.hpp>
 
@@ -46,4 +47,35 @@ TEST_CASE("The bar of the scatter keeps clear of the dots", "[study]") {
   for (Dot& d : chart.dots) d.y = 1.0;  // the control: the dots down there
   chart.dots[0].y = 100.0;
   CHECK(low - height_of_words() > 100.0);
+}
+
+TEST_CASE("Words of a tornado stay inside the picture", "[study]") {
+  const auto swing = [](const std::string& input, double low, double high, const std::string& end) {
+    Swing s;
+    s.input = input;
+    s.effect.low = low;
+    s.effect.high = high;
+    s.effect.swing = {.value = high - low};
+    s.effect.low_label = "low " + end;
+    s.effect.high_label = "high " + end;
+    return s;
+  };
+  const std::string svg = draw_tornado({swing("rises", 10.0, 90.0, "of the range"),
+                                        swing("falls", 95.0, 5.0, "ünderéstimated båd and lång")},
+                                       kUnset, "runout [m]")
+                              .alone("t");
+  // x, anchor and text of each label under a bar
+  const std::regex label("<text x='([0-9.]+)'[^>]*text-anchor='(start|end)'[^>]*>([^<]+)</text>");
+  std::size_t seen = 0;
+  for (std::sregex_iterator at(svg.begin(), svg.end(), label), end; at != end; ++at) {
+    const double x = std::stod((*at)[1]);
+    const std::string text = (*at)[3];
+    if (!text.starts_with("low") && !text.starts_with("high")) continue;
+    CAPTURE(text);
+    const double width = 6.5 * static_cast<double>(text.size());
+    CHECK(((*at)[2] == "end" ? x - width : x) >= 130.0);  // right of the names
+    CHECK(((*at)[2] == "end" ? x : x + width) <= 520.0);
+    ++seen;
+  }
+  CHECK(seen == 4);
 }

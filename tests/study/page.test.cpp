@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <random>
 
 #include <nlohmann/json.hpp>
 
@@ -47,6 +48,27 @@ struct Explored {
   }
   [[nodiscard]] std::string page() const {
     return make_page(plan, table, analyse(plan, table), about).html;
+  }
+  /// As if the last stage were a report, whose page has a player of points that wander.
+  void with_players(std::size_t states, std::size_t points) {
+    for (Node& node : plan.nodes)
+      if (node.stage.name == "count") node.stage.type.name = "report.runout";
+    const Column* key = table.find("key:count");
+    REQUIRE(key);
+    std::minstd_rand random(1);
+    std::uniform_real_distribution<double> move(0.0, 1.0);
+    for (std::size_t row = 0; row < table.rows; ++row) {
+      PageArrays arrays;
+      std::vector<double> x(states * points);
+      for (std::size_t k = points; k < x.size(); ++k) x[k] = x[k - points] + move(random);
+      arrays.add("points.x", x, states);
+      bench.scratch.write(
+          fmt::format("{}/stages/count/{}/report/report.html", bench.folder.filename().string(),
+                      key->text[row]),
+          fmt::format("<style>p{{}}</style>{}{{\"points\":{{\"frames\":{}}},\"arrays\":{}}}"
+                      "</script>{}{}</script><script>run()</script>\n",
+                      kPageRun, states, arrays.index(), kPageArrays, arrays.text()));
+    }
   }
 };
 
@@ -142,6 +164,26 @@ TEST_CASE("A whole page says of which rows it has no run", "[study]") {
   CHECK(gone.not_done == std::vector<std::size_t>{1});
   CHECK(gone.not_kept.size() == 23);
   CHECK(gone.no_report.empty());
+}
+
+TEST_CASE("A whole page has as many states as its size allows", "[study]") {
+  Explored e;
+  e.with_players(40, 300);
+  const auto written = [&](const WholeSize& size) {
+    return write_whole_page(e.bench.folder, e.plan, e.table, size);
+  };
+  const WholePage all = written({.states = 40, .bytes = 1.0});
+  CHECK(all.rows == 24);
+  CHECK(all.states == 40);
+  CHECK(written({}).bytes == all.bytes);  // below 60 MB there is no need
+  const double size = 0.8 * static_cast<double>(all.bytes);
+  const WholePage fitted = written({.bytes = size});
+  CHECK(static_cast<double>(fitted.bytes) <= size);
+  CHECK(fitted.states < 40);
+  CHECK(fitted.states > 20);  // a fifth of the bytes is no reason to leave out half of the states
+  CHECK(fitted.all_states == 40);
+  CHECK(std::filesystem::file_size(fitted.path) == fitted.bytes);
+  CHECK(written({.bytes = 1.0}).states == 12);
 }
 
 TEST_CASE("Child of the browser test: writes the page of a study", "[.page-child]") {
