@@ -84,16 +84,30 @@ constexpr std::array kOthers{
     Reading{"the stress that is read as xx is the vertical one (`columns.stress`)", -1.0, 1.0, 0},
     Reading{"the stress that is read as xy is the vertical one (`columns.stress`)", -1.0, 1.0, 3}};
 
-double ratio_of(const std::vector<Column>& columns, const Reading& r) {
+/// Total stress over weight, and how far it differs between elements.
+struct Ratio {
+  double median = 0.0;
+  double spread = 0.0;  ///< median distance from the median, relative to it
+};
+
+Ratio ratio_of(const std::vector<Column>& columns, const Reading& r) {
   std::vector<double> ratios;
   for (const Column& c : columns)
     ratios.push_back((r.stress * c.stress[r.component] + r.pressure * c.pressure -
                       (r.pressure < 0.0 ? -c.pond : c.pond)) /
                      c.weight);
-  return median(std::move(ratios));
+  const double middle = median(ratios);
+  for (double& v : ratios) v = std::abs(v - middle);
+  return {middle, median(std::move(ratios)) / std::abs(middle)};
 }
 
 bool fits(double ratio) { return ratio > 1.0 / kNear && ratio < kNear; }
+
+/// What would explain the ratio, and how well it does in each element.
+struct Guess {
+  std::string text;
+  double spread = 0.0;
+};
 
 struct Unit {
   const char* name;
@@ -103,24 +117,34 @@ constexpr std::array kUnits{Unit{"Pa", 1.0},      Unit{"kPa", 1e3},      Unit{"M
                             Unit{"bar", 1e5},     Unit{"t/m2", 9806.65}, Unit{"psi", 6894.76},
                             Unit{"psf", 47.8803}, Unit{"ksf", 47880.3}};
 
-std::string guesses(const std::vector<Column>& columns, double ratio, double unit) {
-  std::vector<std::string> all;
+std::string guesses(const std::vector<Column>& columns, const Ratio& found, double unit) {
+  const double ratio = found.median;
+  std::vector<Guess> all;
   for (const Unit& u : kUnits)
     if (u.pascal != unit && ratio > 0.0 && fits(ratio * u.pascal / unit))
-      all.push_back(fmt::format("`units.stress` is {}", u.name));
-  for (const Reading& other : kOthers) {
-    const double r = ratio_of(columns, other);
-    if (fits(r)) all.push_back(fmt::format("{} ({:.2f} times)", other.text, r));
-  }
+      all.push_back({fmt::format("`units.stress` is {}", u.name), found.spread});
   if (ratio > 0.3 && ratio < 3.0)
     all.push_back(
-        fmt::format("the densities of `materials`, of grains and water together, are {:.2f} times "
-                    "those given",
-                    ratio));
+        {fmt::format("the densities of `materials`, of grains and water together, are {:.2f} times "
+                     "those given",
+                     ratio),
+         found.spread});
+  for (const Reading& other : kOthers) {
+    const Ratio r = ratio_of(columns, other);
+    if (fits(r.median))
+      all.push_back({fmt::format("{} ({:.2f} times)", other.text, r.median), r.spread});
+  }
   if (all.empty())
     return "Are `units.stress` and `units.length`, the order of the recorders, `columns.stress`, "
            "the gravity row and the densities right?";
-  return fmt::format("It would fit if {}.", fmt::join(all, ", or if "));
+  // What fits in the median alone, by chance, differs from element to element.
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Guess& a, const Guess& b) { return a.spread < b.spread; });
+  const double most = 3.0 * all.front().spread + 0.02;
+  std::vector<std::string> words;
+  for (const Guess& g : all)
+    if (g.spread <= most) words.push_back(g.text);
+  return fmt::format("It would fit if {}.", fmt::join(words, ", or if "));
 }
 
 }  // namespace
@@ -135,13 +159,13 @@ std::string weight_warning(const QuadMesh& mesh, const std::vector<HistoryMateri
   double deepest = 0.0;
   for (const Column& c : columns) deepest = std::max(deepest, c.depth);
   std::erase_if(columns, [&](const Column& c) { return !(c.depth > deepest / 3.0); });
-  const double ratio = ratio_of(columns, kAsRead);
-  if (ratio >= kLow && ratio <= kHigh) return {};
+  const Ratio ratio = ratio_of(columns, kAsRead);
+  if (ratio.median >= kLow && ratio.median <= kHigh) return {};
   return fmt::format(
       "gravity: the total vertical stress (pore pressure less effective stress) is {:.3g} times "
       "the weight of the soil above, density by thickness, in the median of {} elements below a "
       "third of the depth: the soil is not at rest under its own weight. {}",
-      ratio, columns.size(), guesses(columns, ratio, unit));
+      ratio.median, columns.size(), guesses(columns, ratio, unit));
 }
 
 }  // namespace flowslide

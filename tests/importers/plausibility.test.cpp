@@ -133,6 +133,17 @@ TEST_CASE("A density that the stress at rest does not have is named with the rig
   CHECK_THAT(weighed([](FemFrame&) {}, 2700.0), Contains("are 0.70 times those given"));
 }
 
+TEST_CASE("A column that fits by chance is not offered", "[importers]") {
+  // with K0 = 0.5 everywhere xx is 0.97 times the weight in every element, with others in the
+  // median
+  const auto other_k0 = [](FemFrame& f) {
+    for (std::size_t e = 0; e < f.stress.size(); ++e)
+      f.stress[e][0] *= 0.6 + 0.8 / 9.0 * static_cast<double>(e % 10);
+  };
+  CHECK_THAT(weighed([](FemFrame&) {}, 1500.0), Contains("read as xx is the vertical one"));
+  CHECK_THAT(weighed(other_k0, 1500.0), Contains("are 1.27 times those given") && !Contains("xx"));
+}
+
 TEST_CASE("Strains that are not those of the displacements are told by column") {
   CHECK(strained([](auto&) {}).empty());
   CHECK_THAT(strained([](auto& e) { std::swap(e[0], e[1]); }),
