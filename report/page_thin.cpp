@@ -35,6 +35,12 @@ std::optional<PageElement> find_run(std::string_view html) {
       what));
 }
 
+std::size_t count_in(const ThinJson& json, const char* name) {
+  const ThinJson& count = json.at(name);
+  if (!count.is_number_unsigned()) damaged(fmt::format("'{}' is no whole number", name));
+  return count.get<std::size_t>();
+}
+
 std::string unpacked_bytes(std::string_view text, std::size_t size) {
   std::string deflated, bytes(size, '\0');
   deflated.reserve(text.size() / 4 * 3);
@@ -81,7 +87,9 @@ std::vector<std::size_t> evenly(std::size_t of, std::size_t most) {
 class Thinning {
  public:
   Thinning(ThinJson& run, std::string bytes, std::size_t states)
-      : run_(run), bytes_(std::move(bytes)), chosen_(evenly(run["points"]["frames"], states)) {}
+      : run_(run),
+        bytes_(std::move(bytes)),
+        chosen_(evenly(count_in(run.at("points"), "frames"), states)) {}
 
   std::string write() {
     std::string out;
@@ -97,12 +105,12 @@ class Thinning {
   }
 
   static Levels levels_of(const ThinJson& entry) {
-    return {entry["rows"], entry["columns"], entry["bits"].get<std::size_t>() / 8};
+    return {count_in(entry, "rows"), count_in(entry, "columns"), count_in(entry, "bits") / 8};
   }
 
  private:
   std::string kept(ThinJson& entry, Levels a, std::string_view bytes) const {
-    const std::string name = entry["name"];
+    const std::string name = entry.at("name");
     const bool times = name == "points.t";
     if (!times && std::find(kOfStates.begin(), kOfStates.end(), name) == kOfStates.end())
       return std::string(bytes);
@@ -143,7 +151,7 @@ std::string thinned_page(const std::string& html, std::size_t states) {
   try {
     ThinJson json = ThinJson::parse(html.substr(run->begin, run->size()));
     std::size_t size = 0;
-    for (const ThinJson& entry : json["arrays"]) {
+    for (const ThinJson& entry : json.at("arrays")) {
       const Levels a = Thinning::levels_of(entry);
       if (a.rows > kLargestPage || a.columns > kLargestPage || a.width < 1 || a.width > 2)
         damaged("an array is too large");
