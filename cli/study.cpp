@@ -217,7 +217,7 @@ int report_whole(const StudyArguments& args, const Opened& study, const study::T
              whole.rows, study.plan.rows.size());
   tell_missing(whole, study.plan, study.folder);
   if (args.frames == 0 && whole.states < whole.all_states)
-    fmt::print("players have up to {} of {} states, for less than {:.0f} MB; all: --frames {}\n",
+    fmt::print("players have up to {} of {} states, for {:.0f} MB at most; all: --frames {}\n",
                whole.states, whole.all_states, size.bytes / 1e6, whole.all_states);
   if (bytes > size.bytes)
     print_warning(

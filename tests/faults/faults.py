@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes one system call or request for memory after the other go wrong in short runs of the program.
 
-    faults.py PROGRAM SHIM [--full] [--scene NAME] [--action NAME] [--at N] [--list]
+    faults.py PROGRAM SHIM [--full | --every N] [--scene NAME] [--action NAME] [--at N] [--jobs N]
 
 After each: the exit code is that of files (4), nothing incomplete lies under a final name, and the
 same command, undisturbed, ends with the bytes of a run that never was disturbed. Without --full

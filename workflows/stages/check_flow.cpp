@@ -47,8 +47,8 @@ void check_direction(const Soil& soil, Findings& found) {
     warn(found,
          "the soil is high at its right end, x = {:g} m, and runs out at its left, x = {:g} m: "
          "flows go to the right, and the runout counts from the right end. Is the section drawn "
-         "with its toe on the left? `mirror: true` in the import turns it around; in a section of "
-         "blocks give every x the other sign.",
+         "with its toe on the left? `mirror` of the import turns it around; in a section of blocks "
+         "give every x the other sign.",
          e.right, e.left);
 }
 
