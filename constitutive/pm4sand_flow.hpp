@@ -151,7 +151,7 @@ struct Flow {
   T Kp;                  ///< plastic modulus [Pa]
   T b_n;                 ///< (alpha_b - alpha) : n, way to the image on the bounding surface
   DeviatorOf<T> b_side;  ///< the part of alpha_b - alpha across n
-  T pull;                ///< d alpha = L pull (b_n n + b_side)
+  T rate;                ///< d alpha = L rate/p (b_n n + b_side) [Pa]
   decltype(T() < T()) beyond_dilatancy;  ///< (alpha_d - alpha) : n < 0, where fabric grows
 };
 
@@ -230,9 +230,8 @@ Flow<T> flow(const SoilOf<T>& c, const StateOf<T>& s, const History<T>& h, const
   const T below = below_C_ka * (exp(apparent) - 1.0 + c.C_g1) * root_b *
                   (1.0 + 2.0 * h.peak_ratio * positive(to_bounding) * h.root_zpk2) *
                   select(returns, from_true + c.C_g1, T(1.0));
-  const T rate = above / below;
-  r.Kp = rate * to_bounding;
-  r.pull = rate * inverse_p;
+  r.rate = above / below;
+  r.Kp = r.rate * to_bounding;
   r.b_n = to_bounding;
   r.b_side = alpha_n * r.n - at.alpha;
 

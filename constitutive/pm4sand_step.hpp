@@ -5,6 +5,10 @@
 /// docs/theory/pm4sand.md, "Integration". T as in pm4sand_flow.hpp.
 namespace flowslide::pm4sand {
 
+/// The floor of mean stress over p_min.
+inline constexpr double kFloor = 0.2;
+inline constexpr double kOnFloor = kFloor * (1.0 + 1e-9);
+
 template <class T>
 struct Rates {
   T p = 0.0;
@@ -14,6 +18,18 @@ struct Rates {
 template <class T>
 Rates<T> elastic_rates(const SoilOf<T>& c, T G, const StrainOf<T>& step) {
   return {c.pressure_ratio * G * step.volumetric, 2.0 * G * step.deviator, {}, {}};
+}
+
+/// What alpha has to follow so that a long step does not turn the loading direction too far. It
+/// turns towards the strain at the rate 2 G/(m p/sqrt(2)), which no explicit step can follow where
+/// p is far below p_min and G is not: this is the linearly implicit step, and no more than what
+/// turning moves alpha, m/sqrt(2). `inverse` is 1/p.
+template <class T>
+DeviatorOf<T> held_direction(const SoilOf<T>& c, const PointOf<T>& at, T inverse, T G,
+                             const DeviatorOf<T>& n, const StrainOf<T>& step, const Rates<T>& r) {
+  const T turns = positive(2.0 * G * dot(n, step.deviator)) / (kRootHalf * c.m * at.p);
+  const DeviatorOf<T> moves = r.s - at.p * r.alpha - r.p * at.alpha;
+  return (turns / (1.0 + turns) * inverse) * (moves - dot(moves, n) * n);
 }
 
 /// Increments over `step` with the flow rule at `at`, eqs (25) to (28).
@@ -34,21 +50,29 @@ Rates<T> rates(const SoilOf<T>& c, const StateOf<T>& s, const History<T>& h, con
   if (any(softens)) share = select(softens, max(s.band, min(T(1.0), (loss - w.Kp) / G)), T(1.0));
   const T elastic = 2.0 * G * share - loss;
   T L = driving / (w.Kp + elastic);
-  const auto plastic = L > T(0.0);
   // Near the bounding surface the pull on the back-stress ratio is too stiff for explicit steps.
   // Along n it ends at the image; across n it may turn the loading direction, which changes by
-  // d alpha/(m/sqrt(2)), no farther than onto alpha.
-  const T pulled = L * w.pull;
+  // d alpha/(m/sqrt(2)), no farther than onto alpha. Beyond that surface it may soften faster than
+  // stress unloads: then it is at the image at once.
+  const auto snaps =
+      w.Kp < T(0.0) && w.Kp + elastic <= T(0.0) && elastic > T(0.0) && driving > T(0.0);
+  const auto torn = at.p > kOnFloor * s.p_min && at.p < s.p_min;
+  const T pressure = select(torn, at.p, l.p);
+  const T pulled = select(snaps, T(1.0), L * (w.rate * select(torn, inverse, inverse_p)));
   const T along = min(pulled, T(1.0));
   T across = pulled;
   const T farthest = kRootHalf * c.m, alpha2 = dot(at.alpha, at.alpha), m2 = c.m * c.m;
   const auto far = pulled > T(0.0) && pulled * pulled * max(alpha2, m2) > farthest * farthest;
   if (any(far)) across = select(far, farthest / sqrt(max(alpha2, m2)), pulled);
-  const auto at_image = along >= T(1.0) && w.Kp > T(0.0);
-  if (any(at_image)) L = select(at_image, max(L, (driving - w.b_n * l.p) / elastic), L);
+  const auto at_image = snaps || (along >= T(1.0) && w.Kp > T(0.0));
+  if (any(at_image)) L = select(at_image, max(L, (driving - w.b_n * pressure) / elastic), L);
+  const auto plastic = L > T(0.0);
   r.p = select(plastic, r.p - L * K * w.D, r.p);
   r.s = select(plastic, r.s - (2.0 * G * share * L) * w.n, r.s);
   r.alpha = select(plastic, (along * w.b_n) * w.n + across * w.b_side, r.alpha);
+  if (any(torn && plastic))
+    r.alpha =
+        select(torn && plastic, r.alpha + held_direction(c, at, inverse, G, w.n, step, r), r.alpha);
   const auto grows = plastic && w.beyond_dilatancy && w.D < T(0.0);
   r.z = select(grows, (-h.fabric_rate * L) * (s.z_max * w.n + at.z), r.z);
   return r;
@@ -186,10 +210,6 @@ Trial<T> attempt(const SoilOf<T>& c, StateOf<T>& s, const PointOf<T>& at, const 
   r.Mb = select(!stays && holds, at_middle.surfaces.Mb, r.Mb);
   return r;
 }
-
-/// The floor of mean stress over p_min.
-inline constexpr double kFloor = 0.2;
-inline constexpr double kOnFloor = kFloor * (1.0 + 1e-9);
 
 /// Ends a sub-step: the floor of mean stress, the stress on the yield surface and within the
 /// bounding surface.

@@ -278,6 +278,38 @@ TEST_CASE("PM4Sand torn open takes few sub-steps, and bears load again all the s
   CHECK(closed[1] == Approx(closed_exact[1]).epsilon(0.1));
 }
 
+TEST_CASE("PM4Sand sheared below p_min takes few sub-steps, and stays exact", "[pm4sand]") {
+  // liquefied by two cycles, then sheared as it opens, as in a dam that fails: p falls from 16 to
+  // 0.37 p_min, where the loading direction is stiff and reversals follow each other
+  const auto sheared = [](double tolerance) {
+    PM4Sand::Params p = pm4sand_tailings();
+    p.tolerance = tolerance;
+    p.max_strain_increment = 1e-4;
+    Trial t{.c = PM4Sand::constants(p)};
+    for (const double way : {3e-3, -6e-3, 6e-3, -3e-3})
+      for (int i = 0; i < 200; ++i) t.advance(way / 200);
+    for (int i = 0; i < 20; ++i) t.advance(2.6e-4);
+    int attempts = 0;
+    for (int i = 0; i < 37; ++i) {
+      const bool below = -0.5 * (t.stress[0] + t.stress[1]) < t.state.p_min;
+      const auto r = PM4Sand::update(t.c, t.state, t.stress, {{1.5e-5, 1.5e-5, 0.0, 2.6e-4}});
+      t.stress = r.stress;
+      t.state = r.state;
+      if (below) attempts += r.sub_steps + r.rejected;
+    }
+    return std::pair(attempts, t.stress);
+  };
+  const auto [attempts, stress] = sheared(1e-4);
+  const auto [many, exact] = sheared(1e-6);
+  const double p = -0.5 * (exact[0] + exact[1]);
+  CHECK(p < 0.4 * 506.6);
+  // with an explicit loading direction 1808; and 0.5 Pa is what five sub-steps may err
+  CHECK(attempts < 300);
+  CHECK(many > attempts);
+  CHECK(-0.5 * (stress[0] + stress[1]) == Approx(p).margin(0.5));
+  CHECK(stress[3] == Approx(exact[3]).margin(0.5));
+}
+
 TEST_CASE("PM4Sand ends where every sub-step is the smallest", "[pm4sand]") {
   // three smallest ones, of which the last is longer by rounding
   PM4Sand::Params p = pm4sand_tailings();
