@@ -3,6 +3,7 @@
 #include "cli/terminal.hpp"
 #include "study/batch/pack.hpp"
 #include "study/statistics/summary.hpp"
+#include "study/table/observations.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -268,11 +269,16 @@ void StudyDisplay::end(const std::filesystem::path& folder, const study::Table& 
   for (const std::string& line : failures()) print_wrapped(stdout, "failed: ", line);
   fmt::print("{:<24} {} done, {} failed\n", "rows", done, failed);
   if (const study::Column* runout = table.find("runout_m")) {
-    std::vector<double> values;
-    std::copy_if(runout->number.begin(), runout->number.end(), std::back_inserter(values), is_set);
-    fmt::print("{:<24} median {:.4g} m, {:.4g} to {:.4g} m\n", "runout",
-               study::quantile_of(values, 0.5), study::quantile_of(values, 0.0),
-               study::quantile_of(values, 1.0));
+    // as on the page: of the main variant, a row that is repeated once
+    const study::Observations observed(plan_, table);
+    const study::Exceedance all = observed.exceedance_of(*runout);
+    const bool several = std::any_of(plan_.rows.begin(), plan_.rows.end(), [&](const auto& row) {
+      return row.variant != observed.variant();
+    });
+    if (!all.value.empty())
+      fmt::print("{:<24} median {:.4g} m, {:.4g} to {:.4g} m{}\n", "runout",
+                 study::weighted_quantile(all, 0.5), all.value.front(), all.value.back(),
+                 several ? fmt::format(" ({})", observed.variant()) : "");
   }
   fmt::print("{:<24} {}\n{:<24} {}\n", "table", (folder / "table.csv").string(), "report",
              (folder / "study.html").string());

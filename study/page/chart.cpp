@@ -154,10 +154,12 @@ Svg draw(const ScatterChart& chart) {
   for (const Dot& d : chart.dots)
     svg.circle(frame.x(d.x), frame.y(d.y), 4.5, series_class(d.series), d.title);
   for (const auto& [r, series] : chart.ramps) {
-    if (!is_set(r.breach.value)) continue;
-    svg.polyline(corner(frame, x0, 0.0) + corner(frame, r.breach.value, 0.0) +
+    // what the rows do not show is not drawn
+    const bool begins = r.begins(), ends = r.ends();
+    if (!is_set(r.breach.value) || (!begins && !ends)) continue;
+    svg.polyline((begins ? corner(frame, x0, 0.0) : "") + corner(frame, r.breach.value, 0.0) +
                      corner(frame, r.saturation.value, r.plateau.value) +
-                     corner(frame, x1, r.plateau.value),
+                     (ends ? corner(frame, x1, r.plateau.value) : ""),
                  series ? fmt::format("fit f{}", *series % kColours) : "fit");
   }
   if (is_set(chart.usual_scatter)) draw_scatter(svg, frame, chart);

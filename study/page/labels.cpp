@@ -1,5 +1,7 @@
 #include "study/page/labels.hpp"
 
+#include "study/page/meanings.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -26,8 +28,11 @@ std::string readable(const Table& table, const std::string& name) {
   std::string text = name;
   const Column* c = table.find(name);
   const std::string unit = c ? c->unit : unit_in_name(name);
-  if (c && c->role == Role::found) text = without_unit(name);
-  std::replace(text.begin(), text.end(), '_', ' ');
+  if (c && c->role == Role::found) {
+    const auto known = meaning_of(name);
+    text = known ? known->words : without_unit(name);
+    std::replace(text.begin(), text.end(), '_', ' ');
+  }
   return unit.empty() ? text : fmt::format("{} [{}]", text, unit);
 }
 

@@ -5,6 +5,7 @@
 #include "study/page/chart.hpp"
 #include "study/page/explorer_data.hpp"
 #include "study/page/labels.hpp"
+#include "study/page/varied.hpp"
 #include "study/page/words.hpp"
 #include "study/statistics/summary.hpp"
 #include "study_bundle.hpp"
@@ -26,7 +27,7 @@ class Writer {
 
   Page write() {
     head();
-    html_ += warnings(table_) + judgement(plan_, table_, f_);
+    html_ += warnings(table_) + judgement(plan_, table_, f_) + what_was_varied(plan_, table_, f_);
     answer();
     explorer();
     side_by_side();
@@ -79,12 +80,13 @@ class Writer {
                          plan_.rows.size());
     if (failed > 0) html_ += fmt::format(", <span class='failed'>{} failed</span>", failed);
     if (open > 0) html_ += fmt::format(", {} still to be computed", open);
-    html_ += ".</p></div>" + cards(plan_, table_, f_) + "</header><nav>";
+    html_ += counted_rows(plan_) + ".</p></div>" + cards(plan_, table_, f_) + "</header><nav>";
     for (const auto& [id, name] :
-         {std::pair{"judgement", "The answer"}, std::pair{"results", "Results"},
-          std::pair{"explore", "Explore"}, std::pair{"side-by-side", "Two runs"},
-          std::pair{"charts", "Charts"}, std::pair{"relations", "What it hangs on"},
-          std::pair{"rows", "All rows"}, std::pair{"cost", "How it was computed"}})
+         {std::pair{"judgement", "The answer"}, std::pair{"varied", "What was varied"},
+          std::pair{"results", "Results"}, std::pair{"explore", "Explore"},
+          std::pair{"side-by-side", "Two runs"}, std::pair{"charts", "Charts"},
+          std::pair{"relations", "What it hangs on"}, std::pair{"rows", "All rows"},
+          std::pair{"cost", "How it was computed"}})
       if (id != std::string_view("side-by-side") || has_reports())
         html_ += fmt::format("<a href='#{}'>{}</a>", id, name);
     html_ += "<span id='tools'></span></nav><main>";
@@ -111,9 +113,12 @@ class Writer {
     html_ +=
         "</table></div><p class='note'>Spread and scatter are standard deviations. The scatter "
         "is what disturbances leave that mean nothing to the dam: a difference between two rows "
-        "that is not larger is none.</p><ul>";
-    for (const Threshold& t : f_.thresholds) html_ += threshold_sentence(table_, t);
-    html_ += "</ul>";
+        "of less than twice as much is none.</p>" +
+        levels_table(table_, f_);
+    std::string others;
+    for (const Threshold& t : f_.thresholds)
+      if (t.y != f_.results.front()) others += threshold_sentence(table_, t);
+    if (!others.empty()) html_ += "<ul>" + others + "</ul>";
     close();
   }
 
@@ -127,7 +132,10 @@ class Writer {
       const Column* c = table_.find(input.name);
       std::set<std::string> values;
       for (const std::size_t g : f_.groups) values.insert(c->text[f_.repeats.groups[g][0]]);
-      if (input.name != x && values.size() > 1 && values.size() <= kMost) return c;
+      const bool acts = std::any_of(f_.swings.begin(), f_.swings.end(), [&](const Swing& s) {
+        return s.input == input.name && s.result == y;
+      });
+      if (input.name != x && acts && values.size() > 1 && values.size() <= kMost) return c;
     }
     return nullptr;
   }
@@ -175,8 +183,11 @@ class Writer {
       chart.ramps.back().series = static_cast<std::size_t>(at - chart.series.begin());
     }
     add_figure(fmt::format("{}-{}", r.y, r.x), draw(chart),
-               fmt::format("{} against {}. Rank correlation {}.", readable(table_, r.y),
-                           readable(table_, r.x), interval(r.spearman)));
+               fmt::format("{} against {}. Rank correlation {}{}.", readable(table_, r.y),
+                           readable(table_, r.x), interval(r.spearman),
+                           is_set(r.within.value)
+                               ? fmt::format("; among rows of one {} {}", r.by, interval(r.within))
+                               : ""));
   }
 
   /// Relations of a result, those with intermediate results first, the strongest of them first.
@@ -184,11 +195,8 @@ class Writer {
     std::vector<const Relation*> found;
     for (const Relation& r : f_.relations)
       if (r.y == result) found.push_back(&r);
-    const auto strength = [](const Relation* r) {
-      return is_set(r->spearman.value) ? std::abs(r->spearman.value) : -1.0;
-    };
-    std::stable_sort(found.begin(), found.end(), [&](const Relation* a, const Relation* b) {
-      return strength(a) > strength(b);
+    std::stable_sort(found.begin(), found.end(), [](const Relation* a, const Relation* b) {
+      return strength(*a) > strength(*b);
     });
     return found;
   }
@@ -238,13 +246,14 @@ class Writer {
     open("relations", "What it hangs on");
     html_ +=
         "<div class='wide'><table><tr><th class='word'>result</th>"
-        "<th class='word'>against</th><th>rank correlation</th><th>slope</th><th>R&sup2;</th>"
-        "<th>rows</th></tr>";
+        "<th class='word'>against</th><th>rank correlation</th><th>among rows of one</th>"
+        "<th>slope</th><th>R&sup2;</th><th>rows</th></tr>";
     for (const Relation& r : f_.relations)
       html_ += fmt::format(
-          "<tr><td class='word'>{}</td><td class='word'>{}</td><td>{}</td>"
+          "<tr><td class='word'>{}</td><td class='word'>{}</td><td>{}</td><td>{}</td>"
           "<td>{}</td><td>{}</td><td>{}</td></tr>",
           xml_text(readable(table_, r.y)), xml_text(readable(table_, r.x)), interval(r.spearman),
+          is_set(r.within.value) ? xml_text(r.by) + ": " + interval(r.within) : "-",
           interval(r.line.slope), short_number(r.line.r2), r.spearman.rows);
     html_ +=
         "</table></div><p class='note'>In brackets: 95 % interval, from resampling the rows.</p>";

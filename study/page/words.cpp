@@ -51,6 +51,12 @@ std::string how_far(const Plan& plan, const Table& table, const StudyFindings& f
       item(fmt::format("Half of the rows have a {} above <b>{}</b>, one in twenty above <b>{}</b>.",
                        name, with_unit(table, result, weighted_quantile(all, 0.5)),
                        with_unit(table, result, weighted_quantile(all, 0.95))));
+  const bool sampled =
+      std::any_of(plan.inputs.begin(), plan.inputs.end(), [](const Input& i) { return i.sampled; });
+  if (!sampled)
+    text += item(
+        "Rows are combinations of the inputs, none likelier than another: their shares are "
+        "no probabilities.");
   const std::vector<double>& number = table.find(result)->number;
   std::size_t largest = plan.rows.size();
   for (const std::size_t g : f.groups)
@@ -85,6 +91,11 @@ std::string how_sure(const Table& table, const StudyFindings& f) {
                     "keeps fixed, come on top.");
 }
 
+/// "at 0.5"; "up to 0.5" stays.
+std::string at(const std::string& label) {
+  return label.starts_with("up to ") || label.starts_with("from ") ? label : "at " + label;
+}
+
 std::string why(const Table& table, const StudyFindings& f) {
   const std::string& result = f.results[0];
   std::vector<const Relation*> found;
@@ -94,13 +105,21 @@ std::string why(const Table& table, const StudyFindings& f) {
       found.push_back(&r);
   }
   std::stable_sort(found.begin(), found.end(), [](const Relation* a, const Relation* b) {
-    return std::abs(a->spearman.value) > std::abs(b->spearman.value);
+    return strength(*a) > strength(*b);
   });
   std::string text;
   constexpr std::size_t kMost = 3;
-  for (std::size_t i = 0; i < std::min(found.size(), kMost); ++i)
-    text += item(fmt::format("It goes with {}: rank correlation {}.", plain(table, found[i]->x),
-                             interval(found[i]->spearman)));
+  for (std::size_t i = 0; i < std::min(found.size(), kMost); ++i) {
+    const Relation& r = *found[i];
+    text +=
+        item(is_set(r.within.value)
+                 ? fmt::format(
+                       "It goes with {}: rank correlation {} among rows of one {}, {} among all.",
+                       plain(table, r.x), interval(r.within), xml_text(r.by),
+                       short_number(r.spearman.value))
+                 : fmt::format("It goes with {}: rank correlation {}.", plain(table, r.x),
+                               interval(r.spearman)));
+  }
   for (const Threshold& t : f.thresholds)
     if (t.y == result) text += threshold_sentence(table, t);
   return text.empty() ? item("The study has found nothing that it goes with.") : text;
@@ -118,10 +137,15 @@ std::string what_would_change_it(const Table& table, const StudyFindings& f) {
   for (const Swing* s : swings) {
     const Effect& e = s->effect;
     const bool noise = std::abs(e.swing.value) < 2.0 * f.scatter[0].numerical;
-    text += item(fmt::format("<b>{}</b>: {} on average at {}, {} at {}{}.", xml_text(s->input),
-                             with_unit(table, result, e.low), xml_text(e.low_label),
-                             with_unit(table, result, e.high), xml_text(e.high_label),
-                             noise ? "; no more than numerics do" : ""));
+    const Column* input = table.find(s->input);
+    const std::string unit =
+        input && input->is_number && !input->unit.empty() ? " " + input->unit : "";
+    text += item(fmt::format(
+        "<b>{}</b>: {} on average {}, {} {}: {}{} ({} to {}){}.", xml_text(s->input),
+        with_unit(table, result, e.low), xml_text(at(e.low_label) + unit),
+        with_unit(table, result, e.high), xml_text(at(e.high_label) + unit),
+        e.swing.value > 0.0 ? "+" : "", short_number(e.swing.value), short_number(e.swing.low),
+        short_number(e.swing.high), noise ? "; no more than numerics do" : ""));
   }
   for (const Comparison& c : f.comparisons)
     if (c.result == result && c.where.empty())
@@ -136,17 +160,27 @@ std::string block(const char* heading, const std::string& items) {
 
 }  // namespace
 
+double strength(const Relation& r) {
+  const double v = is_set(r.within.value) ? r.within.value : r.spearman.value;
+  return is_set(v) ? std::abs(v) : -1.0;
+}
+
 std::string threshold_sentence(const Table& table, const Threshold& t) {
   if (!is_set(t.ramp.breach.value)) return "";
   const std::string x = xml_text(readable(table, t.x)), y = xml_text(readable(table, t.y));
-  const bool begins = t.ramp.no_breach <= kMostWithout, ends = t.ramp.no_saturation <= kMostWithout;
+  const bool begins = t.ramp.begins(), ends = t.ramp.ends();
   std::string text =
       fmt::format("<li>{} against {}{}: ", y, x, t.where.empty() ? "" : ", " + xml_text(t.where));
-  text += begins ? fmt::format("nothing below {}; ", interval(t.ramp.breach))
-                 : "no value of it below which there is nothing; ";
-  text += ends ? fmt::format("no growth beyond {}, at {}. ", interval(t.ramp.saturation),
-                             interval(t.ramp.plateau))
-               : "no value of it beyond which the growth stops. ";
+  if (begins) text += fmt::format("none below {}; ", interval(t.ramp.breach));
+  if (ends)
+    text += fmt::format("no growth beyond {}, at {}", interval(t.ramp.saturation),
+                        interval(t.ramp.plateau));
+  if (!begins || !ends)
+    text += fmt::format("{}these rows do not show where it {}", ends ? "; " : "",
+                        begins ? "stops to grow"
+                        : ends ? "begins"
+                               : "begins, nor where it stops to grow");
+  text += ". ";
   return text + fmt::format("(ramp R&sup2; {}, straight line {})</li>", short_number(t.ramp.r2),
                             short_number(t.ramp.line_r2));
 }
@@ -161,7 +195,8 @@ std::string judgement(const Plan& plan, const Table& table, const StudyFindings&
          block("How far", how_far(plan, table, f)) + block("How sure", how_sure(table, f)) +
          block("Why", why(table, f)) +
          block("What would change it", what_would_change_it(table, f)) +
-         "<p class='note'>In brackets: 95 % interval, from resampling the rows.</p></section>";
+         "<p class='note'>In brackets: 95 % interval, from resampling the rows; those that share "
+         "a stage, such as a shaking, come and go together.</p></section>";
 }
 
 std::string cards(const Plan& plan, const Table& table, const StudyFindings& f) {

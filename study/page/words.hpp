@@ -16,6 +16,9 @@ std::string cards(const Plan& plan, const Table& table, const StudyFindings& f);
 /// What stages warned of, each once with the rows that it holds for.
 std::string warnings(const Table& table);
 
+/// How much a number goes with another: within levels where it has such, -1 where not known.
+double strength(const Relation& r);
+
 /// Where runout begins and where it stops to grow.
 std::string threshold_sentence(const Table& table, const Threshold& t);
 

@@ -52,7 +52,7 @@ Effect effect_of_number(const std::vector<double>& input, const std::vector<doub
   }
   std::vector<char> end;
   for (const double x : rows.x) end.push_back(x <= low ? 'l' : x >= high ? 'h' : '-');
-  Effect e = between(rows.y, end, how);
+  Effect e = between(rows.y, end, without_gaps(how, input, result));
   e.low_label = fmt::format("{}{:.4g}", few ? "" : "up to ", low);
   e.high_label = fmt::format("{}{:.4g}", few ? "" : "from ", high);
   return e;
@@ -77,29 +77,37 @@ Effect effect_of_choice(const std::vector<std::string>& input, const std::vector
     values.push_back(result[row]);
     end.push_back(input[row] == least->first ? 'l' : input[row] == most->first ? 'h' : '-');
   }
-  Effect e = between(values, end, how);
+  Effect e = between(values, end, without_gaps(how, result, result));
   e.low_label = least->first;
   e.high_label = most->first;
   return e;
 }
 
-Estimate ratio_of_means(const std::vector<double>& over, const std::vector<double>& under,
-                        const Resampling& how) {
-  std::vector<double> values = over;
-  std::vector<char> end(over.size(), 'h');
-  values.insert(values.end(), under.begin(), under.end());
-  end.resize(values.size(), 'l');
-  std::vector<double> known;
-  std::vector<char> known_end;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (is_set(values[i])) {
-      known.push_back(values[i]);
-      known_end.push_back(end[i]);
-    }
-  return bootstrap(known.size(), how, [&](const std::vector<std::size_t>& rows) {
-    const double below = mean_at(known, known_end, 'l', rows);
-    return below != 0.0 ? mean_at(known, known_end, 'h', rows) / below : kUnset;
-  });
+Estimate ratio_of_means(const std::vector<double>& over, const Resampling& of_over,
+                        const std::vector<double>& under, const Resampling& of_under) {
+  const auto mean_of = [](const std::vector<double>& values) {
+    return [&values](const std::vector<std::size_t>& rows) {
+      double sum = 0.0;
+      for (const std::size_t row : rows) sum += values[row];
+      return sum / static_cast<double>(rows.size());
+    };
+  };
+  const auto ratio = [](double above, double below) {
+    return below != 0.0 ? above / below : kUnset;
+  };
+  Estimate e{.value = ratio(mean(over), mean(under)), .rows = over.size() + under.size()};
+  if (!is_set(e.value)) return e;
+  Resampling apart = of_under;  // its draws are not those of the other side
+  apart.seed = ~of_under.seed;
+  const std::vector<double> above = resampled(over.size(), of_over, mean_of(over)),
+                            below = resampled(under.size(), apart, mean_of(under));
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < above.size(); ++i)
+    if (const double r = ratio(above[i], below[i]); is_set(r)) ratios.push_back(r);
+  if (ratios.size() < kResamples / 2) return e;
+  e.low = quantile_of(ratios, 0.025);
+  e.high = quantile_of(ratios, 0.975);
+  return e;
 }
 
 }  // namespace flowslide::study

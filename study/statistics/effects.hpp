@@ -23,8 +23,9 @@ Effect effect_of_number(const std::vector<double>& input, const std::vector<doub
 Effect effect_of_choice(const std::vector<std::string>& input, const std::vector<double>& result,
                         const Resampling& how);
 
-/// Mean of the first over mean of the second, with an interval that resamples both.
-Estimate ratio_of_means(const std::vector<double>& over, const std::vector<double>& under,
-                        const Resampling& how);
+/// Mean of the first over mean of the second, neither with gaps, with an interval that resamples
+/// each by itself.
+Estimate ratio_of_means(const std::vector<double>& over, const Resampling& of_over,
+                        const std::vector<double>& under, const Resampling& of_under);
 
 }  // namespace flowslide::study

@@ -78,8 +78,9 @@ Line fit_line(const std::vector<double>& x, const std::vector<double>& y, const 
       return c.empty() ? kUnset : c[which];
     };
   };
-  line.intercept = bootstrap(pairs.x.size(), how, coefficient(0));
-  line.slope = bootstrap(pairs.x.size(), how, coefficient(1));
+  const Resampling of_pairs = without_gaps(how, x, y);
+  line.intercept = bootstrap(pairs.x.size(), of_pairs, coefficient(0));
+  line.slope = bootstrap(pairs.x.size(), of_pairs, coefficient(1));
   std::vector<double> fitted;
   for (const double v : pairs.x) fitted.push_back(line.intercept.value + line.slope.value * v);
   line.r2 = share_explained(pairs.y, fitted);

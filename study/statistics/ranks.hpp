@@ -1,6 +1,7 @@
 #pragma once
 #include "study/statistics/bootstrap.hpp"
 
+#include <string>
 #include <vector>
 
 namespace flowslide::study {
@@ -16,10 +17,18 @@ double correlation(const std::vector<double>& x, const std::vector<double>& y);
 Estimate spearman(const std::vector<double>& x, const std::vector<double>& y,
                   const Resampling& how);
 
+/// The same among the rows of equal `level`, and its mean over levels by their rows: what goes with
+/// y where levels have curves of their own. Levels of fewer than four rows do not count.
+Estimate spearman_within(const std::vector<std::string>& level, const std::vector<double>& x,
+                         const std::vector<double>& y, const Resampling& how);
+
 /// The rows in which neither is NaN, as two columns.
 struct Pairs {
   std::vector<double> x, y;
 };
 Pairs without_gaps(const std::vector<double>& x, const std::vector<double>& y);
+/// How to resample these rows.
+Resampling without_gaps(const Resampling& how, const std::vector<double>& x,
+                        const std::vector<double>& y);
 
 }  // namespace flowslide::study

@@ -84,7 +84,7 @@ Ramp fit_ramp(const std::vector<double>& x, const std::vector<double>& y, const 
 
   std::array<std::vector<double>, 3> values;
   double without_breach = 0.0, without_saturation = 0.0;
-  resampled(n, how, [&](const std::vector<std::size_t>& drawn) {
+  resampled(n, without_gaps(how, x, y), [&](const std::vector<std::size_t>& drawn) {
     const Found f = search.best(drawn);
     values[0].push_back(search.at(f.breach));
     values[1].push_back(search.at(f.saturation));

@@ -17,10 +17,15 @@ struct Ramp {
   double no_breach = kUnset, no_saturation = kUnset;
   double r2 = kUnset;       ///< of the ramp
   double line_r2 = kUnset;  ///< of a straight line through the same rows
+  /// Are the thresholds seen?
+  [[nodiscard]] bool begins() const;
+  [[nodiscard]] bool ends() const;
 };
 
 /// Largest share of resamples without a threshold for which it still counts as seen.
 inline constexpr double kMostWithout = 0.05;
+inline bool Ramp::begins() const { return no_breach <= kMostWithout; }
+inline bool Ramp::ends() const { return no_saturation <= kMostWithout; }
 
 inline constexpr std::size_t kFewestForRamp = 8;
 

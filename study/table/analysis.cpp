@@ -91,12 +91,28 @@ class Analyst {
            !y.name.starts_with("liquefaction_depth_");
   }
 
+  /// Rows that share a shaking come and go together.
+  [[nodiscard]] Resampling resampling(const std::vector<std::size_t>& places,
+                                      const Column& y) const {
+    Resampling how = resampling_;
+    how.units = observed_.units(places, y);
+    return how;
+  }
+
   void relate(const Column& y) {
     for (const Column& x : table_.columns) {
       if (!is_cause(x, y)) continue;
       const Pairs p = observed_.pairs(x, y);
-      f_.relations.push_back(
-          {x.name, y.name, spearman(p.x, p.y, resampling_), fit_line(p.x, p.y, resampling_)});
+      const Resampling how = resampling(observed_.places(x, y), y);
+      Relation r{x.name, y.name, spearman(p.x, p.y, how), {}, {}, fit_line(p.x, p.y, how)};
+      if (const std::set<std::string> by = observed_.beside(x, y); !by.empty()) {
+        std::vector<std::string> level;
+        for (const std::size_t i : observed_.places(x, y))
+          level.push_back(place_of(plan_.rows[observed_.row(i)], by));
+        r.within = spearman_within(level, p.x, p.y, how);
+        r.by = fmt::format("{}", fmt::join(by, ", "));
+      }
+      f_.relations.push_back(std::move(r));
     }
   }
 
@@ -106,17 +122,17 @@ class Analyst {
     Effect effect;
     if (input.unit) {
       const Pairs p = observed_.pairs(x, y);
-      effect = effect_of_number(p.x, p.y, resampling_);
+      effect = effect_of_number(p.x, p.y, resampling(observed_.places(x, y), y));
     } else {
       const std::vector<double> all = observed_.means(y);
-      const auto word = [&](std::size_t i) { return x.text[observed_.row(i)]; };
+      const std::vector<std::size_t> places = observed_.places(x, y);
       std::vector<std::string> words;
       std::vector<double> result;
-      for (const std::size_t i : observed_.places(y, word)) {
-        words.push_back(word(i));
+      for (const std::size_t i : places) {
+        words.push_back(x.text[observed_.row(i)]);
         result.push_back(all[i]);
       }
-      effect = effect_of_choice(words, result, resampling_);
+      effect = effect_of_choice(words, result, resampling(places, y));
     }
     if (is_set(effect.swing.value)) f_.swings.push_back({input.name, y.name, effect});
   }
@@ -135,6 +151,7 @@ class Analyst {
     struct Level {
       std::size_t row = 0;
       Pairs pairs;
+      std::vector<std::size_t> places;
     };
     const std::set<std::string> by = observed_.beside(x, y);
     const std::vector<double> all_x = observed_.means(x), all_y = observed_.means(y);
@@ -142,17 +159,20 @@ class Analyst {
     for (const std::size_t i : observed_.places(x, y)) {
       const std::size_t row = observed_.row(i);
       Level& level =
-          levels.try_emplace(place_of(plan_.rows[row], by), Level{row, {}}).first->second;
+          levels.try_emplace(place_of(plan_.rows[row], by), Level{row, {}, {}}).first->second;
       level.pairs.x.push_back(all_x[i]);
       level.pairs.y.push_back(all_y[i]);
+      level.places.push_back(i);
     }
     std::erase_if(levels, [](const auto& l) { return l.second.pairs.x.size() < kFewestForRamp; });
     for (const auto& [where, level] : levels)
-      f_.thresholds.push_back({x.name, y.name, where.empty() ? "" : *by.begin(), where, level.row,
-                               fit_ramp(level.pairs.x, level.pairs.y, resampling_)});
+      f_.thresholds.push_back(
+          {x.name, y.name, where.empty() ? "" : *by.begin(), where, level.row,
+           fit_ramp(level.pairs.x, level.pairs.y, resampling(level.places, y))});
     if (!levels.empty()) return;
     const Pairs p = observed_.pairs(x, y);
-    f_.thresholds.push_back({x.name, y.name, "", "", 0, fit_ramp(p.x, p.y, resampling_)});
+    f_.thresholds.push_back(
+        {x.name, y.name, "", "", 0, fit_ramp(p.x, p.y, resampling(observed_.places(x, y), y))});
   }
 
   const Plan& plan_;

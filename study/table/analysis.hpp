@@ -18,6 +18,9 @@ namespace flowslide::study {
 struct Relation {
   std::string x, y;
   Estimate spearman;
+  /// Among rows that share the inputs `by`, which y hangs on beside x; not set without such inputs.
+  Estimate within;
+  std::string by;  ///< "c_soft"; several with ", "
   Line line;
 };
 

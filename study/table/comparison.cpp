@@ -3,13 +3,24 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numeric>
 
 #include <fmt/format.h>
 
 namespace flowslide::study {
 namespace {
 
-using Sides = std::array<std::vector<double>, 2>;  ///< the main variant, the other
+/// Of one variant: what its groups have found, and what of it comes and goes together.
+struct Side {
+  std::vector<double> value;
+  std::vector<std::size_t> unit, stratum;
+  void add(const Side& other) {
+    value.insert(value.end(), other.value.begin(), other.value.end());
+    unit.insert(unit.end(), other.unit.begin(), other.unit.end());
+    stratum.insert(stratum.end(), other.stratum.begin(), other.stratum.end());
+  }
+};
+using Sides = std::array<Side, 2>;  ///< the main variant, the other
 
 /// Names of the inputs that rows of a variant have.
 std::set<std::string> inputs_of(const Plan& plan, const std::string& variant) {
@@ -22,12 +33,15 @@ std::set<std::string> inputs_of(const Plan& plan, const std::string& variant) {
 
 class Comparer {
  public:
-  Comparer(const Plan& plan, const Observations& observed, const std::string& variant,
-           const Column& c)
+  Comparer(const Plan& plan, const Table& table, const Observations& observed,
+           const std::string& variant, const Column& c)
       : plan_(plan), observed_(observed), variant_(variant), column_(c) {
     shared_ = inputs_of(plan, variant);
     const std::set<std::string> own = inputs_of(plan, observed.variant());
-    std::erase_if(shared_, [&](const std::string& name) { return !own.contains(name); });
+    // what the number does not hang on parts nothing
+    std::erase_if(shared_, [&](const std::string& name) {
+      return !own.contains(name) || !observed.feeds(*table.find(name), c);
+    });
     sort_by_values();
   }
 
@@ -38,21 +52,33 @@ class Comparer {
     }
     Sides all;
     for (const auto& [where, sides] : by_values_) {
-      for (std::size_t s = 0; s < 2; ++s)
-        all[s].insert(all[s].end(), sides[s].begin(), sides[s].end());
-      f.comparisons.push_back(
-          {variant_, column_.name, where, ratio_of_means(sides[0], sides[1], resampling)});
+      for (std::size_t s = 0; s < 2; ++s) all[s].add(sides[s]);
+      f.comparisons.push_back({variant_, column_.name, where, ratio(sides, resampling)});
     }
     if (by_values_.size() > 1)
-      f.comparisons.push_back(
-          {variant_, column_.name, "", ratio_of_means(all[0], all[1], resampling)});
+      f.comparisons.push_back({variant_, column_.name, "", ratio(all, resampling)});
   }
 
  private:
+  /// A unit of the main variant has rows of every value; the other's are drawn for each by itself.
+  [[nodiscard]] static Estimate ratio(const Sides& sides, const Resampling& resampling) {
+    Resampling over = resampling, under = resampling;
+    over.units = sides[0].unit;
+    under.units = sides[1].unit;
+    under.strata = sides[1].stratum;
+    return ratio_of_means(sides[0].value, over, sides[1].value, under);
+  }
+
   /// Means of groups on both sides, by the values of the inputs that the variants share.
   void sort_by_values() {
     const std::vector<double> values = observed_.distinct(column_);
-    for (const auto& rows : observed_.repeats().groups) {
+    std::vector<std::size_t> all(observed_.groups().size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    const std::vector<std::size_t> units = observed_.units(all, column_);
+    std::map<std::size_t, std::size_t> unit_of;
+    for (std::size_t i = 0; i < units.size(); ++i) unit_of[observed_.groups()[i]] = units[i];
+    for (std::size_t g = 0; g < observed_.repeats().groups.size(); ++g) {
+      const std::vector<std::size_t>& rows = observed_.repeats().groups[g];
       const Row& row = plan_.rows[rows[0]];
       if (row.variant != observed_.variant() && row.variant != variant_) continue;
       std::vector<double> here;
@@ -61,10 +87,17 @@ class Comparer {
       if (here.empty()) continue;
       const std::size_t side = row.variant == variant_;
       ++groups_[side];
-      by_values_[place_of(row, shared_)][side].push_back(mean(here));
+      const auto [place, is_new] = by_values_.try_emplace(place_of(row, shared_));
+      if (is_new) stratum_of_[place->first] = stratum_of_.size();
+      Side& to = place->second[side];
+      to.value.push_back(mean(here));
+      to.unit.push_back(side == 0              ? unit_of.at(g)
+                        : column_.node.empty() ? g
+                                               : column_.node[rows[0]]);
+      to.stratum.push_back(stratum_of_.at(place->first));
     }
     std::erase_if(by_values_, [](const auto& entry) {
-      return entry.second[0].empty() || entry.second[1].empty();
+      return entry.second[0].value.empty() || entry.second[1].value.empty();
     });
   }
 
@@ -83,6 +116,7 @@ class Comparer {
   const Column& column_;
   std::set<std::string> shared_;
   std::map<std::string, Sides> by_values_;
+  std::map<std::string, std::size_t> stratum_of_;
   std::array<std::size_t, 2> groups_{};
 };
 
@@ -95,7 +129,7 @@ void add_comparisons(const Plan& plan, const Table& table, const Observations& o
     if (row.variant != observed.variant()) variants.insert(row.variant);
   for (const std::string& variant : variants)
     for (const std::string& result : findings.results)
-      Comparer(plan, observed, variant, *table.find(result)).add_to(findings, resampling);
+      Comparer(plan, table, observed, variant, *table.find(result)).add_to(findings, resampling);
 }
 
 }  // namespace flowslide::study

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -58,23 +59,65 @@ std::vector<double> Observations::means(const Column& c) const {
 }
 
 Exceedance Observations::exceedance_of(const Column& c) const {
+  // groups whose first rows share a stage are one observation, with all repeats of it
   const std::vector<double> values = distinct(c);
-  std::set<std::size_t> seen;
-  std::vector<Weighted> observed;
+  std::map<std::size_t, std::map<std::size_t, double>> observed;
+  std::size_t other = kNoNode;
   for (const std::size_t g : groups_) {
-    std::vector<double> here;
-    for (const std::size_t row : repeats_.groups[g])
-      if (is_set(values[row]) && (c.node.empty() || seen.insert(c.node[row]).second))
-        here.push_back(values[row]);
-    for (const double v : here) observed.push_back({v, 1.0 / static_cast<double>(here.size())});
+    const std::vector<std::size_t>& rows = repeats_.groups[g];
+    const std::size_t first = c.node.empty() ? kNoNode : c.node[rows[0]];
+    auto& here = observed[first == kNoNode ? --other : first];
+    for (const std::size_t row : rows)
+      if (is_set(values[row])) here.emplace(c.node.empty() ? row : c.node[row], values[row]);
   }
-  return exceedance(std::move(observed));
+  std::vector<Weighted> weighted;
+  for (const auto& [first, here] : observed)
+    for (const auto& [node, v] : here)
+      weighted.push_back({v, 1.0 / static_cast<double>(here.size())});
+  return exceedance(std::move(weighted));
 }
 
 std::vector<std::size_t> Observations::places(const Column& x, const Column& y) const {
-  const std::vector<double> all_x = means(x);
-  std::vector<std::size_t> found = places(y, [&](std::size_t i) { return all_x[i]; });
-  std::erase_if(found, [&](std::size_t i) { return !is_set(all_x[i]); });
+  const std::vector<double> all_x = means(x), all_y = means(y), values = distinct(y);
+  std::map<std::pair<std::string, std::size_t>, std::size_t> best;
+  std::vector<std::size_t> found, repeated(groups_.size());
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    if (!is_set(all_y[i]) || (x.is_number && !is_set(all_x[i]))) continue;
+    const std::vector<std::size_t>& rows = repeats_.groups[groups_[i]];
+    for (const std::size_t r : rows) repeated[i] += is_set(values[r]);
+    const std::size_t node = y.node.empty() ? kNoNode : y.node[row(i)];
+    // of x that of the first row: repeats move it by what means nothing
+    const auto [it, is_new] =
+        node == kNoNode ? std::pair{best.end(), true} : best.try_emplace({x.text[row(i)], node}, i);
+    if (is_new)
+      found.push_back(i);
+    else if (repeated[i] > repeated[it->second])
+      *std::find(found.begin(), found.end(), it->second) = i, it->second = i;
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::vector<std::size_t> Observations::units(const std::vector<std::size_t>& groups,
+                                             const Column& y) const {
+  std::vector<std::size_t> found;
+  for (const std::size_t i : groups) found.push_back(y.node.empty() ? kNoNode : y.node[row(i)]);
+  const std::set<std::size_t> nodes(found.begin(), found.end());
+  if (y.node.empty() || nodes.contains(kNoNode)) {
+    std::iota(found.begin(), found.end(), std::size_t{0});
+    return found;
+  }
+  std::map<std::string, std::vector<std::size_t>> stages;
+  for (const std::size_t n : found)
+    for (const std::size_t before : plan_.nodes[n].before)
+      stages[plan_.nodes[before].stage.name].push_back(before);
+  std::size_t finest = 1;
+  for (const auto& [name, shared] : stages) {
+    const std::size_t kinds = std::set<std::size_t>(shared.begin(), shared.end()).size();
+    if (shared.size() != groups.size() || kinds <= finest || kinds >= nodes.size()) continue;
+    finest = kinds;
+    found = shared;
+  }
   return found;
 }
 

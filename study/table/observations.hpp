@@ -34,20 +34,14 @@ class Observations {
   /// once, each group with the weight 1.
   [[nodiscard]] Exceedance exceedance_of(const Column& c) const;
 
-  /// The groups of the variant that are one observation of y each: it counts once for each x,
-  /// which `label` tells.
-  template <class Label>
-  [[nodiscard]] std::vector<std::size_t> places(const Column& y, Label&& label) const {
-    std::set<std::pair<decltype(label(std::size_t{})), std::size_t>> seen;
-    std::vector<std::size_t> found;
-    const std::vector<double> result = means(y);
-    for (std::size_t i = 0; i < groups_.size(); ++i) {
-      if (!is_set(result[i])) continue;
-      if (y.node.empty() || seen.emplace(label(i), y.node[row(i)]).second) found.push_back(i);
-    }
-    return found;
-  }
+  /// The groups of the variant that are one observation of y each: what one stage has found, with
+  /// and without repeats, counts once for each x, by the group with the most repeats.
   [[nodiscard]] std::vector<std::size_t> places(const Column& x, const Column& y) const;
+  /// For each of those groups what shares its draws in resampling: the groups that share the finest
+  /// stage before y which several of them, and not all, have in common (a shaking), or that which
+  /// found y.
+  [[nodiscard]] std::vector<std::size_t> units(const std::vector<std::size_t>& groups,
+                                               const Column& y) const;
   [[nodiscard]] Pairs pairs(const Column& x, const Column& y) const;
 
   /// Does an input set a stage that found the result, or one before it?

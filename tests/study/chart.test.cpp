@@ -49,6 +49,34 @@ TEST_CASE("The bar of the scatter keeps clear of the dots", "[study]") {
   CHECK(low - height_of_words() > 100.0);
 }
 
+TEST_CASE("Thresholds that the rows do not show are not drawn", "[study]") {
+  ScatterChart chart;
+  for (const double x : {0.0, 5.0, 10.0}) {
+    Dot dot;
+    dot.x = dot.y = x;
+    chart.dots.push_back(dot);
+  }
+  Ramp ramp;
+  ramp.breach.value = 2.0;
+  ramp.saturation.value = 8.0;
+  ramp.plateau.value = 10.0;
+  const auto corners = [&](double no_breach, double no_saturation) {
+    ramp.no_breach = no_breach;
+    ramp.no_saturation = no_saturation;
+    chart.ramps = {{ramp, {}}};
+    const std::string text = draw(chart).alone("t");
+    const std::size_t fit = text.find("class='fit");
+    if (fit == std::string::npos) return std::ptrdiff_t{0};
+    const std::string line =
+        text.substr(text.rfind('<', fit), text.find('>', fit) - text.rfind('<', fit));
+    return std::count(line.begin(), line.end(), ',');
+  };
+  CHECK(corners(0.0, 0.0) == 4);
+  CHECK(corners(0.5, 0.0) == 3);
+  CHECK(corners(0.0, 0.5) == 3);
+  CHECK(corners(0.5, 0.5) == 0);
+}
+
 TEST_CASE("Words of a tornado stay inside the picture", "[study]") {
   const auto swing = [](const std::string& input, double low, double high, const std::string& end) {
     Swing s;

@@ -64,6 +64,55 @@ TEST_CASE("The interval of a mean is that of theory, and holds it as often as it
   CHECK(holds < 200);
 }
 
+TEST_CASE("Rows that come and go together are one observation", "[study]") {
+  // ten values, each in four rows: the interval of their mean is that of ten rows
+  std::vector<double> v, once;
+  Resampling shared = 1, apart = 1, once_only = 1;
+  Random random(7);
+  for (std::size_t i = 0; i < 10; ++i) {
+    once.push_back(normal_quantile(random.uniform()));
+    for (int k = 0; k < 4; ++k) {
+      v.push_back(once.back());
+      shared.units.push_back(i);
+    }
+  }
+  const auto width = [](const std::vector<double>& values, const Resampling& how) {
+    const Estimate e = bootstrap(values.size(), how, [&](const std::vector<std::size_t>& rows) {
+      double sum = 0.0;
+      for (const std::size_t row : rows) sum += values[row];
+      return sum / static_cast<double>(rows.size());
+    });
+    return e.high - e.low;
+  };
+  CHECK(width(v, shared) == Approx(width(once, once_only)));
+  CHECK(width(v, apart) < 0.6 * width(once, once_only));  // the control: half as wide
+  // each stratum keeps its rows: two constants have one mean
+  Resampling strata = 1;
+  strata.strata = {0, 0, 1, 1};
+  CHECK(width({1.0, 1.0, 5.0, 5.0}, strata) == 0.0);
+  CHECK(width({1.0, 1.0, 5.0, 5.0}, 1) > 1.0);
+}
+
+TEST_CASE("What levels have in common is not diluted by mixing them", "[study]") {
+  std::vector<std::string> level;
+  std::vector<double> x, y;
+  for (const int factor : {1, 3, 9})
+    for (int i = 1; i <= 8; ++i) {
+      level.push_back(std::to_string(factor));
+      x.push_back(i);
+      y.push_back(factor * (i + 1));
+    }
+  CHECK(spearman_within(level, x, y, 1).value == Approx(1.0));
+  CHECK(spearman_within(level, x, y, 1).rows == 24);
+  CHECK(spearman(x, y, 1).value < 0.75);  // the control
+  // three rows of a level tell nothing, and do not count
+  level.insert(level.end(), {"few", "few", "few"});
+  x.insert(x.end(), {1, 2, 3});
+  y.insert(y.end(), {3, 2, 1});
+  CHECK(spearman_within(level, x, y, 1).value == Approx(1.0));
+  CHECK(spearman_within(level, x, y, 1).rows == 24);
+}
+
 TEST_CASE("Equal seeds give equal intervals", "[study]") {
   const std::vector<double> x{1, 4, 2, 8, 5, 7}, y{2, 3, 1, 9, 4, 9};
   CHECK(spearman(x, y, 4).low == spearman(x, y, 4).low);
@@ -156,7 +205,7 @@ TEST_CASE("An effect is the difference between the ends of an input", "[study]")
 }
 
 TEST_CASE("A ratio of means with its interval", "[study]") {
-  const Estimate r = ratio_of_means({8, 12, 10, 10}, {5, 5, 4, 6}, 1);
+  const Estimate r = ratio_of_means({8, 12, 10, 10}, 1, {5, 5, 4, 6}, 1);
   CHECK(r.value == Approx(2.0));
   CHECK(r.low > 1.5);
   CHECK(r.high < 2.6);

@@ -135,7 +135,7 @@ TEST_CASE("The page answers in words, warns, and leads to the runs", "[study]") 
   // sum = factor * (one + 2) for one 1..4 and factor 1, 2: its largest is 12, its median 6.
   CHECK_THAT(html, Contains("Half of the rows have a sum above <b>6</b>") &&
                        Contains("Numerics alone move one row by") &&
-                       Contains("<b>factor</b>: 4.5 on average at 1, 9 at 2"));
+                       Contains("<b>factor</b>: 4.5 on average at 1, 9 at 2: +4.5 ("));
   CHECK_THAT(html, Contains("count: beyond &lt;1&gt; &amp; 2 <span class='note'>(3 rows)"));
   CHECK_THAT(html, Contains("href='stages/report/a/report/report.html#the-flow' target='left'"));
   CHECK_THAT(make_page(plan, table, findings).html, !Contains("<iframe"));
@@ -276,6 +276,30 @@ TEST_CASE("Exceedance and tornado stand on what was observed, every repeat", "[s
   REQUIRE(swing != f.swings.end());
   CHECK(swing->effect.swing.rows == 2);
   CHECK(swing->effect.swing.value == Approx(4.0 - 3.0015));
+}
+
+TEST_CASE("What a stage has found counts once, with its repeats or without", "[study]") {
+  StudyBench bench;
+  // `sum` of each `one` serves three rows of `steps`; one of them is repeated, and that moves `sum`
+  const Plan plan = bench.plan(
+      "  set: {stages.sum.with.factor: 1}\n"
+      "  vary:\n"
+      "    one: {setting: stages.one.with.value, range: {from: 1, to: 6, step: 1}}\n"
+      "    steps: {setting: stages.count.with.steps, values: [1, 2, 3]}\n"
+      "  repeat: {count: 3, scale: {stages.one.with.value: 1e-6}, rows: {one: [2], steps: [2]}}\n"
+      "  analysis: {results: [sum]}\n");
+  bench.run(plan);
+  const Table table = make_table(plan, bench.progress(plan));
+  const StudyFindings f = analyse(plan, table);
+  const auto relation = std::find_if(f.relations.begin(), f.relations.end(),
+                                     [](const Relation& r) { return r.x == "one"; });
+  REQUIRE(relation != f.relations.end());
+  CHECK(relation->spearman.rows == 6);
+  CHECK(relation->spearman.value == Approx(1.0));
+  double weight = 0.0;
+  for (const double w : f.exceedance[0].weight) weight += w;
+  CHECK(weight == Approx(6.0));
+  CHECK(f.exceedance[0].value.size() == 8);
 }
 
 TEST_CASE("Repeats that do not disturb what found a number are no repeats of it", "[study]") {
