@@ -97,6 +97,11 @@ int run(const RunArguments& args) {
   fs::path folder = args.out;
   if (folder.empty())
     folder = fs::path("runs") / workflow_name(load_yaml(args.file, args.overrides));
+  if (std::error_code error; fs::exists(folder / "study.json", error))
+    throw InputError(fmt::format(
+        "{}: holds a study (the result of a single run would be mixed with its own). Choose another "
+        "--out.",
+        folder.string()));
   const Workflow workflow = load_workflow(args.file, args.overrides, all_stages());
   check_redo(args, workflow);
   Display display(::isatty(STDOUT_FILENO) == 1);

@@ -41,6 +41,17 @@ struct StudyArguments {
   std::vector<std::string> allowed_programs;
 };
 
+/// The study file that a folder is of; empty where it is of none, or its plan cannot be read.
+fs::path file_of_study(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder / study::kPlanFile, error)) return {};
+  try {
+    return study::read_plan(folder).file;
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
 fs::path study_folder(const StudyArguments& args, const study::Plan& plan) {
   const fs::path folder = args.out.empty() ? fs::path("runs") / plan.name : fs::path(args.out);
   std::error_code error;
@@ -49,6 +60,12 @@ fs::path study_folder(const StudyArguments& args, const study::Plan& plan) {
         fmt::format("{}: holds a single run (its results would be mixed with those of "
                     "the study). Choose another --out.",
                     folder.string()));
+  if (const fs::path of = file_of_study(folder);
+      fs::exists(of, error) && !fs::equivalent(of, plan.file, error))
+    throw InputError(fmt::format(
+        "{}: holds the study of {} (its table and report would be replaced by those of {}). "
+        "Give one of them another 'name', or choose another --out.",
+        folder.string(), of.string(), plan.file.string()));
   return fs::absolute(folder);
 }
 

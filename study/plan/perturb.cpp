@@ -3,6 +3,7 @@
 #include "core/units.hpp"
 #include "study/plan/yaml_read.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace flowslide::study {
@@ -119,6 +120,11 @@ Settings perturbations(const YamlNode& workflow, const Repeat& repeat, std::size
       throw InputError(
           fmt::format("{}: {} is not written in the workflow (a repeat scales what is "
                       "there). Add it under 'set'.",
+                      repeat.place, path));
+    if (std::any_of(set.begin(), set.end(), [&](const auto& s) { return s.first == path; }))
+      throw InputError(
+          fmt::format("{}: {} is disturbed twice, by 'scale' and by 'motion' or 'grid' (only one "
+                      "would act). Take one away.",
                       repeat.place, path));
     scale(set, *node, path, change_of(realisation, step));
   }

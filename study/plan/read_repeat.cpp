@@ -7,9 +7,16 @@ namespace {
 constexpr std::size_t kMostRepeats = 1000;
 constexpr double kUsualStep = 1e-6;
 
-double read_step(const YamlNode& node) {
+/// The last realisation is changed by count / 2 steps.
+double read_step(const YamlNode& node, std::size_t count) {
   const double step = read_number(node);
   constexpr double kLargest = 1e-3;
+  if (const double most = step * static_cast<double>(count / 2);
+      step >= 0.0 && step <= kLargest && most > kLargest * (1.0 + 1e-9))
+    throw node.error(fmt::format(
+        "{:g} becomes {:g} in the last of {} realisations (a change from 0 to {:g} means nothing "
+        "to the dam; a larger one is an input). Make it or their number smaller.",
+        step, most, count, kLargest));
   if (!(step >= 0.0 && step <= kLargest))
     throw node.error(fmt::format(
         "{:g} is no disturbance (a change from 0 to {:g} means nothing to the dam; a larger one is "
@@ -18,8 +25,8 @@ double read_step(const YamlNode& node) {
   return step;
 }
 
-double read_scale(const YamlNode& node) {
-  const double step = read_step(node);
+double read_scale(const YamlNode& node, std::size_t count) {
+  const double step = read_step(node, count);
   if (step == 0.0) throw node.error("is no step (nothing would be disturbed). Give one above 0.");
   return step;
 }
@@ -42,7 +49,7 @@ Repeat read_repeat(const YamlNode& node) {
     repeat.motion = kUsualStep;
     repeat.grid = true;
   }
-  if (motion) repeat.motion = read_step(*motion);
+  if (motion) repeat.motion = read_step(*motion, repeat.count);
   if (grid) {
     if (grid->scalar() != "true" && grid->scalar() != "false")
       throw grid->error(fmt::format("'{}' is no switch. Write true or false.", grid->scalar()));
@@ -51,7 +58,7 @@ Repeat read_repeat(const YamlNode& node) {
   if (scale)
     for (const auto& [path, step] : scale->entries()) {
       expect_path(step, path);
-      repeat.scale.emplace_back(path, read_scale(step));
+      repeat.scale.emplace_back(path, read_scale(step, repeat.count));
     }
   if (const auto rows = node.find("rows"))
     for (const auto& [name, labels] : rows->entries()) repeat.rows[name] = read_texts(labels);

@@ -94,6 +94,9 @@ void read_correlations(Sample& sample, const YamlNode& node) {
     const Correlated pair{index_of(sample, row.item(0)), index_of(sample, row.item(1)),
                           read_number(row.item(2))};
     if (pair.a == pair.b) throw row.error("correlates an input with itself. Name two.");
+    for (const Correlated& p : sample.correlations)
+      if (std::minmax(p.a, p.b) == std::minmax(pair.a, pair.b))
+        throw row.error("correlates two inputs that are correlated above. Take one away.");
     sample.correlations.push_back(pair);
   }
   try {

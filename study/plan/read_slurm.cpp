@@ -68,14 +68,18 @@ std::string read_word(const YamlNode& node) {
 
 std::string read_option(const YamlNode& node) {
   std::string option = read_line(node);
-  if (option.size() < 2 || option[0] != '-')
+  if (option.size() < 2 || option[0] != '-' || option == "--")
     throw node.error(fmt::format("'{}' is no option of sbatch. Write it as in --qos=low.", option));
   const std::string name = option.substr(0, option.starts_with("--") ? option.find('=') : 2);
   if (name.find(' ') != std::string::npos)
     throw node.error(
         fmt::format("'{}' would be taken for one word. Write it as in --qos=low.", option));
+  // sbatch takes the beginning of a long name for the whole of it
+  const auto means = [&](const std::string& own) {
+    return name == own || (name.size() > 2 && name.starts_with("--") && own.starts_with(name));
+  };
   for (const auto& [own, key] : kTaken)
-    if (name == own)
+    if (means(own))
       throw node.error(
           key.empty()
               ? fmt::format("'{}' is set by the program (it relies on it). Leave it out.", own)
@@ -92,11 +96,19 @@ SlurmSettings read_slurm(const YamlNode& node) {
   if (const auto n = node.find("account")) s.account = read_word(*n);
   constexpr std::size_t kMostCpus = 4096;
   if (const auto n = node.find("cpus")) s.cpus = read_count(*n, 1, kMostCpus);
-  if (const auto n = node.find("memory")) s.memory = read_bytes(*n);
+  if (const auto n = node.find("memory")) {
+    s.memory = read_bytes(*n);
+    constexpr double kLeastMemory = 100e6, kMostMemory = 1e15;
+    if (!(s.memory >= kLeastMemory && s.memory <= kMostMemory))
+      throw n->error(
+          fmt::format("'{}' is no memory of a task. Give 100 MB to 1000 TB.", n->scalar()));
+  }
   if (const auto n = node.find("time")) {
     s.time = read_time(*n);
     constexpr double kLeast = 60.0;
     if (!(s.time >= kLeast)) throw n->error("is shorter than Slurm knows. Give at least 1 min.");
+    constexpr double kMost = 366.0 * 86400.0;
+    if (!(s.time <= kMost)) throw n->error("is more than a year. Give what the partition allows.");
     s.chunk = std::min(s.chunk, s.time / 2.0);
   }
   if (const auto n = node.find("chunk")) {

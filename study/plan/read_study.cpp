@@ -46,6 +46,47 @@ void expect_names(const Part& part, const YamlNode& node) {
   }
 }
 
+/// Is `inner` a setting within the group `outer`?
+bool lies_in(const std::string& inner, const std::string& outer) {
+  return inner.starts_with(outer + ".");
+}
+
+/// Of two that set one setting the table would show the one that did not act.
+void expect_settings_once(const Part& part) {
+  struct Setter {
+    std::string name, place, path;
+  };
+  std::vector<Setter> setters;
+  for (const Variable& v : part.vary)
+    for (const std::string& path : v.settings) setters.push_back({v.name, v.place, path});
+  if (part.sample)
+    for (const SampledInput& i : part.sample->inputs)
+      for (const std::string& path : i.settings) setters.push_back({i.name, i.place, path});
+  for (std::size_t a = 0; a < setters.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      const auto& [name, place, path] = setters[a];
+      const Setter& other = setters[b];
+      if (path == other.path || lies_in(path, other.path) || lies_in(other.path, path))
+        throw InputError(fmt::format(
+            "{}: '{}' sets {}, and '{}' sets {} ({}): only one of them would act, and the table "
+            "would show both. Take one away, or vary them together with 'zip'.",
+            place, name, path, other.name, other.path, other.place));
+    }
+  for (std::size_t i = 0; i < part.set.size(); ++i) {
+    const std::string& path = part.set[i].first;
+    for (const Setter& s : setters)
+      if (lies_in(path, s.path))
+        throw InputError(fmt::format(
+            "{}: {} is set here, but '{}' replaces all of {} ({}). Write it into its values.",
+            part.places[i], path, s.name, s.path, s.place));
+    for (std::size_t k = 0; k < part.set.size(); ++k)
+      if (lies_in(path, part.set[k].first))
+        throw InputError(
+            fmt::format("{}: {} is set here, and all of {} as well ({}). Write it there.",
+                        part.places[i], path, part.set[k].first, part.places[k]));
+  }
+}
+
 /// Adds a part with its workflow to the study; `above` gives what it does not say itself.
 void add_part(StudyFile& study, const YamlNode& node, const std::string& variant,
               const YamlNode& workflow, Part above) {
@@ -66,6 +107,7 @@ void add_part(StudyFile& study, const YamlNode& node, const std::string& variant
   if (const auto sample = node.find("sample")) part.sample = read_sample(*sample);
   if (const auto repeat = node.find("repeat")) part.repeat = read_repeat(*repeat);
   expect_names(part, node);
+  expect_settings_once(part);
   try {
     expect_regular_file(part.workflow);
   } catch (const FileError& e) {

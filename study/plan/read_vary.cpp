@@ -49,7 +49,13 @@ std::vector<std::string> range(const YamlNode& node) {
     if (by.unit != from.unit || !(steps >= 0.0) || !(steps < kMostValues))
       throw step->error(fmt::format("'{}' does not lead from {} to {}. Mend unit, sign or size.",
                                     step->scalar(), to_text(from), to_text(to)));
-    for (std::size_t i = 0; static_cast<double>(i) <= steps + 1e-9; ++i)
+    if (std::abs(steps - std::round(steps)) > 1e-6)
+      throw step->error(fmt::format(
+          "'{}' leads from {} to {} and past {} (the range would end before it). Choose another "
+          "step or end.",
+          step->scalar(), to_text(from),
+          to_text({from.value + std::floor(steps) * by.value, from.unit}), to_text(to)));
+    for (std::size_t i = 0; static_cast<double>(i) <= steps + 1e-6; ++i)
       texts.push_back(to_text({from.value + static_cast<double>(i) * by.value, from.unit}));
     return texts;
   }
@@ -191,7 +197,16 @@ void read_table(Variable& variable, const YamlNode& node) {
     if (at == header.end())
       throw paths.error(fmt::format("{} has no column '{}'. It has: {}.", file.scalar(), column,
                                     fmt::join(header, ", ")));
+    if (std::count(header.begin(), header.end(), column) > 1)
+      throw paths.error(fmt::format("{} has several columns '{}'. Give each a name of its own.",
+                                    file.scalar(), column));
     const auto cell = static_cast<std::size_t>(at - header.begin());
+    for (std::size_t i = 1; i < lines.size(); ++i)
+      if (const std::string& text = lines[i][cell]; text.empty() || text == "~" || text == "null")
+        throw paths.error(
+            fmt::format("{}, row '{}': column '{}' is empty (the setting would fall back to its "
+                        "default). Write a value.",
+                        file.scalar(), lines[i][0], column));
     for (const std::string& path : read_settings_paths(paths)) {
       variable.settings.push_back(path);
       std::size_t choice = 0;
@@ -202,6 +217,17 @@ void read_table(Variable& variable, const YamlNode& node) {
   }
   if (variable.settings.empty())
     throw columns.error("is empty (no column would set anything). Name a setting.");
+}
+
+}  // namespace
+
+namespace {
+
+/// Are two labels one text, or one number in one unit?
+bool same(const std::string& a, const std::string& b) {
+  if (a == b) return true;
+  const auto x = parse_amount(a), y = parse_amount(b);
+  return x && y && x->value == y->value && x->unit == y->unit;
 }
 
 }  // namespace
@@ -230,11 +256,14 @@ std::vector<Variable> read_vary(const YamlNode& node) {
     find_unit(variable);
     for (std::size_t i = 0; i < variable.choices.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
-        if (variable.choices[i].label == variable.choices[j].label)
+        if (same(variable.choices[i].label, variable.choices[j].label))
           throw value.error(
-              fmt::format("'{}' stands there twice (two rows could not be told "
+              fmt::format("'{}' stands there twice{} (two rows could not be told "
                           "apart). Take one away, or give labels.",
-                          variable.choices[i].label));
+                          variable.choices[j].label,
+                          variable.choices[i].label == variable.choices[j].label
+                              ? ""
+                              : fmt::format(", also as '{}'", variable.choices[i].label)));
     variables.push_back(std::move(variable));
   }
   return variables;

@@ -72,12 +72,28 @@ class Analyst {
   /// Is there such a column of numbers? Where a row is done it has to be.
   [[nodiscard]] bool is_there(const std::string& name, std::string_view key) const {
     const Column* c = table_.find(name);
-    if (c && c->is_number) return true;
+    const bool result = key == "analysis.results";
+    if (c && c->is_number && (!result || c->role == Role::found)) return true;
+    if (result && c && c->role == Role::input)
+      throw InputError(fmt::format(
+          "{}: {}: '{}' is an input of the study and no result{}.", plan_.file.string(), key, name,
+          table_.find("found:" + name) ? fmt::format(". What was found is 'found:{}'", name) : ""));
     const std::vector<std::string>& states = table_.find("state")->text;
     if (std::find(states.begin(), states.end(), "done") == states.end()) return false;
     throw InputError(fmt::format(
         "{}: {}: the table has no column of numbers '{}'. Take one of its header, such as {}.",
-        plan_.file.string(), key, name, fmt::join(usual_results(table_), ", ")));
+        plan_.file.string(), key, name, fmt::join(some_results(), ", ")));
+  }
+
+  /// A few that are there.
+  [[nodiscard]] std::vector<std::string> some_results() const {
+    constexpr std::size_t kSome = 6;
+    std::vector<std::string> names = usual_results(table_);
+    for (const Column& c : table_.columns)
+      if (names.size() < kSome && c.role == Role::found && c.is_number &&
+          std::find(names.begin(), names.end(), c.name) == names.end())
+        names.push_back(c.name);
+    return names;
   }
 
   [[nodiscard]] bool is_cause(const Column& x, const Column& y) const {

@@ -22,6 +22,10 @@ void write_study(const Scratch& scratch, const std::string& more_values = "",
                     more_values + "]\n      labels: [mean, elastic" + more_labels + "]\n");
 }
 
+void write_copy(const Scratch& scratch, const std::string& from, const std::string& to) {
+  std::filesystem::copy_file(scratch / from, scratch / to);
+}
+
 std::string line_with(const std::string& text, const std::string& word) {
   const std::size_t at = text.find("\"" + word + "\""), begin = text.rfind('\n', at) + 1;
   return text.substr(begin, text.find('\n', at) - begin);
@@ -148,6 +152,14 @@ TEST_CASE("wrong studies end with the exit codes of the contract", "[cli]") {
   const Outcome o = call(scratch, "study run s.yaml --out single");
   CHECK(o.code == 2);
   CHECK_THAT(o.err, Contains("holds a single run"));
+  // Nor the folder of a study for that of another, or of a run.
+  REQUIRE(call(scratch, "study run s.yaml --out both").code == 0);
+  write_copy(scratch, "s.yaml", "other.yaml");
+  const Outcome other = call(scratch, "study run other.yaml --out both");
+  CHECK(other.code == 2);
+  CHECK_THAT(other.err, Contains("holds the study of"));
+  CHECK(call(scratch, "run w.yaml --out both").code == 2);
+  CHECK(call(scratch, "study run s.yaml --out both").code == 0);
   scratch.write("bad.yaml", "schema: 1\nname: bad\nstudy:\n  workflow: w.yaml\n  vary: {a: {}}\n");
   CHECK_THAT(call(scratch, "study run bad.yaml").err, Contains("error: bad.yaml:5:"));
 }

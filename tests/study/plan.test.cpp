@@ -86,6 +86,10 @@ TEST_CASE("Tables from spreadsheets of other countries are told what is wrong", 
   CHECK_THROWS_WITH(plan("name,a\n1,0.5\xC2\xA0\n"), Contains("non-breaking space"));
   CHECK_THROWS_WITH(plan("n\0a\0"s), Contains("UTF-16"));
   CHECK_THROWS_WITH(plan("name,a\n1,2,3\n"), Contains("has 3 cells, the header 2. "));
+  CHECK_THROWS_WITH(plan("name,a,a\n1,2,3\n"), Contains("several columns 'a'"));
+  for (const std::string nothing : {"~", "null"})
+    CHECK_THROWS_WITH(plan("name,a\n1," + nothing + "\n"),
+                      Contains("row '1': column 'a' is empty"));
 }
 
 TEST_CASE("Sampled rows are the same for a seed", "[study]") {
@@ -230,6 +234,31 @@ TEST_CASE("Mistakes in a study file are named with their place", "[study]") {
       {"  repeat: {count: 2, motion: 0.1}\n", {"is no disturbance"}},
       {"  repeat: {count: 2, rows: {nobody: [1]}}\n", {"no variable 'nobody'"}},
       {"  keep: everything\n", {"nothing to keep"}},
+      // of two that set one setting the table would show the one that did not act
+      {"  vary:\n    f: {setting: stages.sum.with.factor, values: [1, 2]}\n"
+       "    g: {setting: stages.sum.with.factor, values: [3]}\n",
+       {"study.yaml:7:", "'g' sets stages.sum.with.factor", "study.yaml:6:", "only one"}},
+      {"  vary:\n    f: {setting: stages.sum.with.factor, values: [1, 2]}\n"
+       "    g: {setting: stages.sum.with, values: [{factor: 3}]}\n",
+       {"'g' sets stages.sum.with"}},
+      {"  vary: {f: {setting: stages.sum.with.factor, values: [1, 2]}}\n"
+       "  sample: {count: 2, inputs: {g: {setting: stages.sum.with.factor, uniform: {from: 1, to: "
+       "2}}}}\n",
+       {"'g' sets stages.sum.with.factor", "'f'"}},
+      {"  set: {stages.sum.with.factor: 1, stages.sum.with: {factor: 2}}\n",
+       {"all of stages.sum.with as well"}},
+      {"  set: {stages.sum.with.factor: 1}\n"
+       "  vary: {f: {setting: stages.sum.with, values: [{factor: 3}]}}\n",
+       {"'f' replaces all of stages.sum.with"}},
+      {"  vary: {f: {setting: stages.sum.with.factor, values: [0.3, 0.30]}}\n",
+       {"'0.3' stands there twice, also as '0.30'"}},
+      {"  vary: {f: {setting: stages.sum.with.factor, range: {from: 1, to: 2.5, step: 1}}}\n",
+       {"and past 2.5"}},
+      {"  sample: {count: 4, inputs: {a: {setting: stages.one.with.value, uniform: {from: 1, to: "
+       "2}}, b: {setting: stages.two.with.value, uniform: {from: 1, to: 2}}}, correlations: [[a, "
+       "b, 0.9], [b, a, -0.9]]}\n",
+       {"correlated above"}},
+      {"  repeat: {count: 10, motion: 5e-4}\n", {"0.0005 becomes 0.0025 in the last of 10"}},
       {"  disk: 2 m\n", {"no size"}},
       // Every row is wrong in the same way: told once, at its place in the study.
       {"  vary: {f: {setting: stages.sum.with.facto, values: [1, 2]}}\n",
@@ -239,6 +268,11 @@ TEST_CASE("Mistakes in a study file are named with their place", "[study]") {
     const std::string message = refusal(bench, c.text);
     for (const std::string& part : c.parts) CHECK_THAT(message, Contains(part));
   }
+  // `set` under `vary` is the value of rows that do not say it
+  CHECK(refusal(bench,
+                "  set: {stages.sum.with.factor: 1}\n"
+                "  vary: {f: {setting: stages.sum.with.factor, values: [1, 2]}}\n")
+            .empty());
   bench.scratch.write("w.yaml", std::string(kWorkflow));
   CHECK_THROWS_WITH(read_study(bench.scratch / "w.yaml"), Contains("is a workflow"));
 }
@@ -276,6 +310,13 @@ TEST_CASE("What is asked of Slurm is read, and nothing that a script could take 
     return std::string();
   };
   CHECK_THAT(refused("{partition: \"day\\nrm -rf x\"}"), Contains("control character"));
+  // sbatch takes the beginning of an option for the whole of it
+  for (const std::string option : {"--tim=5", "--par=x", "--arr=0-5"})
+    CHECK_THAT(refused("{options: [" + option + "]}"), Contains("study.yaml:5:"));
+  CHECK_THAT(refused("{options: [--]}"), Contains("no option of sbatch"));
+  CHECK_THAT(refused("{time: 1e30 h}"), Contains("more than a year"));
+  CHECK_THAT(refused("{memory: 1 MB}"), Contains("no memory of a task"));
+  CHECK_THAT(refused("{memory: 1e30 TB}"), Contains("no memory of a task"));
   CHECK_THAT(refused("{partition: $(x)}"),
              Contains("study.yaml:5:") && Contains("no name of Slurm"));
   CHECK_THAT(refused("{account: --wrap}"), Contains("no name of Slurm"));
