@@ -16,6 +16,7 @@ sys.dont_write_bytecode = True
 import claims
 import figures
 import study_rows
+import tendencies
 from causes import CAUSES
 from study_rows import Study
 
@@ -96,7 +97,8 @@ def write_page(out):
         (data / name).write_text(draw(study), encoding="utf-8")
     response, runout = judge_all(claims.RESPONSE, study), judge_all(claims.RUNOUT, study)
     parts = [HEAD, f"{cost_text(cost, rows)}\n",
-             f"Response: {counted(response)}. Runout: {counted(runout)}.\n", RULE, "## Response of the section\n", table(response) + "\n", causes(response) + "\n",
+             f"Response: {counted(response)}. Runout: {counted(runout)}.\n",
+             tendencies.section(data / "tendencies.json"), RULE, "## Response of the section\n", table(response) + "\n", causes(response) + "\n",
              "## Runout\n", table(runout) + "\n", causes(runout) + "\n", "## Figures\n",
              "The rows are in [rows.csv](mochikoshi/rows.csv).\n"]
     parts += [f"![{words}](mochikoshi/{name})\n\n{words}\n"
@@ -117,6 +119,11 @@ def main():
         study_rows.write_rows(data / "rows.csv", study_rows.gather(args.study))
         text = json.dumps(study_rows.cost(args.study), indent=1) + "\n"
         (data / "study.json").write_text(text, encoding="utf-8")
+        kept = data / "tendencies.json"
+        kept.unlink(missing_ok=True)
+        if (args.study / "analysis.json").is_file():
+            analysis = json.loads((args.study / "analysis.json").read_text(encoding="utf-8"))
+            kept.write_text(json.dumps(tendencies.keep(analysis), indent=1) + "\n", encoding="utf-8")
     write_page(args.out)
 
 
