@@ -182,7 +182,7 @@ def check_of_the_repository(scratch):
         return
     out = scratch / "again/mochikoshi"
     out.mkdir(parents=True)
-    for name in ("rows.csv", "study.json", "section.json"):
+    for name in ("rows.csv", "study.json", "section.json", "tendencies.json"):
         (out / name).write_bytes((data / name).read_bytes())
     call("--out", out.parent)
     kept = {path.name: path.read_bytes() for path in data.glob("*.svg")}

@@ -140,6 +140,9 @@ def check_opening(page):
     click(page, x, y)
     expect("a click opens its run", frame_source(page, "left").endswith("short.html#the-flow"))
     expect("on the left alone", frame_source(page, "right") == "")
+    expect("and is told to be below the chart", page.run(
+        "document.querySelector('.chosen a[href=\"#side-by-side\"]').innerText")
+        == "Open on the left, below.")
     page.run("document.querySelector('.scatter svg').focus()")
     page.key("End")
     page.call("Input.dispatchKeyEvent", type="keyDown", key="Enter", code="Enter", modifiers=8)

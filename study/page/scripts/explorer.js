@@ -145,7 +145,10 @@ class Explorer {
   open(point, side) {
     this.choose(point);
     const row = this.rows.rowWithPage(point);
-    if (row >= 0) this.runs.open(row, side);
+    if (row < 0) return;
+    this.runs.open(row, side);
+    // it may lie below the window
+    this.chosenLine.append(make("a", { href: "#side-by-side" }, `Open on the ${side}, below.`));
   }
 
   markOpen() {
