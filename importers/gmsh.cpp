@@ -130,6 +130,13 @@ void add_curves(const GmshFile& file, const std::map<std::int64_t, std::int32_t>
   for (const auto& n : section.mesh.elements)
     for (std::size_t k = 0; k < 4; ++k) edges.insert({n[k], n[(k + 1) % 4]});
   std::map<std::string, std::vector<Edge>> curves;
+  // Two groups may have one name: their common lines count once.
+  std::set<std::pair<std::string, Edge>> seen;
+  const auto add = [&](const GmshElement& e, const Edge& edge) {
+    const std::string name = name_of(file, 1, e.physical);
+    const auto [low, high] = std::minmax(edge[0], edge[1]);
+    if (seen.insert({name, {low, high}}).second) curves[name].push_back(edge);
+  };
   std::size_t lost = 0;
   for (const GmshElement& e : file.elements) {
     if (e.type != kLine || e.physical <= 0) continue;
@@ -141,9 +148,9 @@ void add_curves(const GmshFile& file, const std::map<std::int64_t, std::int32_t>
     const Edge with{a->second, b->second}, against{b->second, a->second};
     // Outer edges have the soil on the left.
     if (edges.count(with) > 0)
-      curves[name_of(file, 1, e.physical)].push_back(with);
+      add(e, with);
     else if (edges.count(against) > 0)
-      curves[name_of(file, 1, e.physical)].push_back(against);
+      add(e, against);
     else
       ++lost;
   }

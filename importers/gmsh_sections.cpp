@@ -114,13 +114,19 @@ void read_names(Lines& in, GmshFile& file) {
     const std::vector<double>& v =
         in.split(std::string_view(line).substr(0, from), "a dimension and a number");
     if (v.size() != 2) in.fail(fmt::format("'{}' is not: dimension, number, \"name\"", line));
-    file.physical_names[{in.tag(v[0], "dimension"), in.tag(v[1], "physical group")}] =
-        line.substr(from + 1, to - from - 1);
+    const int dimension = in.tag(v[0], "dimension"), tag = in.tag(v[1], "physical group");
+    const std::string name = line.substr(from + 1, to - from - 1);
+    const auto [at, is_new] = file.physical_names.emplace(std::pair(dimension, tag), name);
+    if (!is_new && at->second != name)
+      in.fail(
+          fmt::format("physical group {} of dimension {} is '{}', and was '{}' before (its "
+                      "elements can have one name only) number one of them anew",
+                      tag, dimension, name, at->second));
   }
 }
 
-/// Physical group of each entity, 4.1 only.
-using Entities = std::map<std::pair<int, std::int64_t>, int>;
+/// Physical groups of each entity, 4.1 only.
+using Entities = std::map<std::pair<int, std::int64_t>, std::vector<int>>;
 
 Entities read_entities(Lines& in) {
   Entities physical;
@@ -138,9 +144,9 @@ Entities read_entities(Lines& in) {
             fmt::format("surface {} is in {} physical groups (one material is needed) put it "
                         "into one",
                         v[0], groups));
-      if (groups > 0)
-        physical[{dimension, in.whole(v[0], "entity")}] =
-            std::abs(in.tag(v[at + 1], "physical group"));
+      std::vector<int>& of_entity = physical[{dimension, in.whole(v[0], "entity")}];
+      for (std::size_t g = 0; g < groups; ++g)
+        of_entity.push_back(std::abs(in.tag(v[at + 1 + g], "physical group")));
     }
   }
   return physical;
@@ -197,10 +203,14 @@ void read_elements_4(Lines& in, GmshFile& file, const Entities& entities) {
   for (std::size_t b = 0; b < in.count(head[0], "blocks of elements"); ++b) {
     const std::vector<double> block = in.numbers(4, "dimension, entity, type, elements");
     const auto group = entities.find({in.tag(block[0], "dimension"), in.whole(block[1], "entity")});
-    const int physical = group == entities.end() ? 0 : group->second;
     const int type = in.tag(block[2], "type");
-    for (std::size_t i = 0; i < in.count(block[3], "elements"); ++i)
-      add_element(in, file, in.numbers(1, "an element: number and nodes"), 1, type, physical);
+    const std::vector<int> groups =
+        group == entities.end() || group->second.empty() ? std::vector<int>{0} : group->second;
+    for (std::size_t i = 0; i < in.count(block[3], "elements"); ++i) {
+      const std::vector<double>& v = in.numbers(1, "an element: number and nodes");
+      // Once for each group, as format 2.2 has it.
+      for (const int physical : groups) add_element(in, file, v, 1, type, physical);
+    }
   }
 }
 
@@ -233,6 +243,7 @@ GmshFile read_gmsh_file(const std::filesystem::path& path) {
   GmshFile file;
   file.name = in.name();
   int version = 0;
+  bool has_names = false;
   Entities entities;
   while (in.next()) {
     if (in.text().front() != '$')
@@ -246,9 +257,14 @@ GmshFile read_gmsh_file(const std::filesystem::path& path) {
     bool known = true;
     if (section == "MeshFormat")
       version = read_format(in);
-    else if (section == "PhysicalNames")
+    else if (section == "PhysicalNames") {
+      if (has_names)
+        in.fail(
+            "a second $PhysicalNames (which names hold is not clear: were two files put together?) "
+            "keep one of them");
+      has_names = true;
       read_names(in, file);
-    else if (section == "Entities" && version == 4)
+    } else if (section == "Entities" && version == 4)
       entities = read_entities(in);
     else if (section == "Nodes")
       version == 4 ? read_nodes_4(in, file) : read_nodes_2(in, file);

@@ -72,6 +72,15 @@ void keep_between(SectionMesh& section, double left, double right) {
       "{} of {} elements reach beyond left and right and are left out", before - kept, before));
 }
 
+std::vector<std::int64_t> drop_loose_nodes(QuadMesh& mesh) {
+  const std::vector<std::int64_t> before = mesh.node_tags;
+  const std::vector<std::int32_t> number = renumber_nodes(mesh);
+  std::vector<std::int64_t> dropped;
+  for (std::size_t i = 0; i < number.size(); ++i)
+    if (number[i] < 0) dropped.push_back(before[i]);
+  return dropped;
+}
+
 void divide_in_four(SectionMesh& section) {
   QuadMesh& mesh = section.mesh;
   constexpr std::size_t kMostElements = 2'000'000;

@@ -5,6 +5,7 @@
 #include "importers/gmsh.hpp"
 #include "importers/mesh_edit.hpp"
 #include "importers/mesh_faults.hpp"
+#include "importers/mesh_overlap.hpp"
 #include "model/mirror.hpp"
 
 #include <algorithm>
@@ -48,6 +49,13 @@ SectionMesh from_tables(const MeshTextConfig& config, double length) {
   SectionMesh section;
   section.mesh = std::move(text.mesh);
   section.notes = std::move(text.notes);
+  if (const auto loose = drop_loose_nodes(section.mesh); !loose.empty())
+    section.notes.push_back(fmt::format(
+        "{}: {} node{} to no element and {} left out, the first is node {}. Is a row of {} missing "
+        "or wrong?",
+        config.nodes.path.filename().string(), loose.size(),
+        loose.size() == 1 ? " belongs" : "s belong", loose.size() == 1 ? "is" : "are",
+        loose.front(), config.elements.path.filename().string()));
   const std::set<std::int32_t> tags(section.mesh.element_material.begin(),
                                     section.mesh.element_material.end());
   for (const std::int32_t tag : tags)
@@ -69,6 +77,29 @@ void rename(SectionMesh& section, const std::map<std::string, NamedTag>& names) 
           name, material.tag, tags));
     }
     found->name = name;
+  }
+}
+
+/// After `left` and `right`: what they leave out may lie anywhere.
+void check_overlap(const MeshImportConfig& config, const QuadMesh& mesh) {
+  const std::string problem = overlap(mesh);
+  const auto& path = config.gmsh ? config.gmsh->path : config.tables->nodes.path;
+  validate(problem.empty(), "{}: {} {}", path.filename().string(), problem,
+           config.gmsh ? "move surfaces that lie over each other apart, and let neighbours share "
+                         "their points and lines: 'Coherence;' or BooleanFragments in the .geo file"
+                       : "move elements that lie over each other apart, and let elements that "
+                         "touch name the same nodes");
+}
+
+/// Elements have one material, so a number has one name.
+void check_distinct_tags(const std::map<std::string, NamedTag>& names) {
+  std::map<int, std::string> seen;
+  for (const auto& [name, material] : names) {
+    const auto [at, is_new] = seen.emplace(material.tag, name);
+    validate(is_new,
+             "materials: '{}' and '{}' have the same tag {} (its elements can have one name only) "
+             "correct one of the tags or leave the material out",
+             at->second, name, material.tag);
   }
 }
 
@@ -98,6 +129,7 @@ void check(const MeshImportConfig& config) {
            "left = {:g} m is not left of right = {:g} m (nothing lies between) exchange them?",
            config.left.value_or(0.0), config.right.value_or(0.0));
   (void)unit_factor(config.length, Dim::length);
+  check_distinct_tags(config.materials);
 }
 
 SectionMesh import_mesh(const MeshImportConfig& config) {
@@ -110,6 +142,7 @@ SectionMesh import_mesh(const MeshImportConfig& config) {
     constexpr double kFar = std::numeric_limits<double>::infinity();
     keep_between(section, config.left.value_or(-kFar), config.right.value_or(kFar));
   }
+  check_overlap(config, section.mesh);
   for (int i = 0; i < config.divide; ++i) divide_in_four(section);
   rename(section, config.materials);
   if (config.mirror) mirror(section);

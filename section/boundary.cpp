@@ -7,8 +7,10 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace flowslide {
 namespace {
@@ -27,6 +29,94 @@ std::vector<Edge> part(const std::vector<Edge>& loop, std::size_t from, std::siz
   std::vector<Edge> edges;
   for (std::size_t i = from; i != to; i = (i + 1) % loop.size()) edges.push_back(loop[i]);
   return edges;
+}
+
+double length(const QuadMesh& mesh, const std::set<Edge>& edges) {
+  double sum = 0.0;
+  for (const auto& [a, b] : edges) sum += distance(mesh.nodes[a], mesh.nodes[b]);
+  return sum;
+}
+
+std::string place(const QuadMesh& mesh, const Edge& e) {
+  const Vec2 &a = mesh.nodes[e[0]], &b = mesh.nodes[e[1]];
+  return fmt::format("({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) m", a[0], a[1], b[0], b[1]);
+}
+
+constexpr std::array<std::string_view, 4> kSides{"base", "right", "surface", "left"};
+
+/// Sets of the file with the name of a side: on the outer boundary, soil on the left. A file may
+/// have drawn one where `left` or `right` has cut since, so its direction is not known.
+void turn_given(SectionMesh& section, const std::vector<Edge>& loop) {
+  const std::set<Edge> outer(loop.begin(), loop.end());
+  for (EdgeSet& set : section.sets) {
+    if (std::ranges::find(kSides, set.name) == kSides.end()) continue;
+    std::vector<Edge> inner;
+    for (Edge& e : set.edges) {
+      if (outer.count({e[1], e[0]}) > 0) std::swap(e[0], e[1]);
+      if (outer.count(e) == 0) inner.push_back(e);
+    }
+    validate(inner.empty(),
+             "set '{}' of the file: {} of its {} edges lie inside the section, such as {} (the set "
+             "of this name is the side that is held, shaken or loaded, and has soil on one side "
+             "only). Give this physical curve another name",
+             set.name, inner.size(), set.edges.size(),
+             inner.empty() ? std::string() : place(section.mesh, inner.front()));
+  }
+}
+
+/// The set that the file has for a side, against the side that is found.
+void compare_given(SectionMesh& section, EdgeSet& given, const std::vector<Edge>& found) {
+  const QuadMesh& mesh = section.mesh;
+  const std::set<Edge> file(given.edges.begin(), given.edges.end());
+  const std::set<Edge> side(found.begin(), found.end());
+  if (file == side) {
+    given.edges = found;  // in walking order
+    return;
+  }
+  std::set<Edge> common;
+  for (const Edge& e : file)
+    if (side.count(e) > 0) common.insert(e);
+  validate(!common.empty(),
+           "set '{}' of the file lies elsewhere than that side of the section: it has the edge {}, "
+           "the side the edge {}, and no edge is in both (it would be held, shaken or loaded in "
+           "place of the side). Give this physical curve another name: the side is found without "
+           "it",
+           given.name, file.empty() ? "none" : place(mesh, *file.begin()),
+           side.empty() ? "none" : place(mesh, found.front()));
+  section.notes.push_back(fmt::format(
+      "set '{}' of the file is {:.6g} m long, the side of this name that is found {:.6g} m, and "
+      "they have {:.6g} m in common: the set of the file is what is held, shaken or loaded, and "
+      "nothing else of the side. If that is not meant, give its physical curve another name",
+      given.name, length(mesh, file), length(mesh, side), length(mesh, common)));
+}
+
+/// A section without vertical ends has the sides that its file gives it.
+void note_not_found(SectionMesh& section, const std::vector<Edge>& loop) {
+  std::vector<std::string_view> missing;
+  std::map<Edge, int> times;
+  for (const Edge& e : loop) times[e] = 0;
+  for (const std::string_view name : kSides) {
+    const auto set = std::ranges::find(section.sets, name, &EdgeSet::name);
+    if (set == section.sets.end())
+      missing.push_back(name);
+    else
+      for (const Edge& e : set->edges) ++times[e];
+  }
+  if (!missing.empty()) {
+    section.notes.push_back(fmt::format("the section has no vertical ends, so there {} no set{} {}",
+                                        missing.size() == 1 ? "is" : "are",
+                                        missing.size() == 1 ? "" : "s", fmt::join(missing, ", ")));
+    return;
+  }
+  std::set<Edge> open, twice;
+  for (const auto& [e, n] : times)
+    if (n != 1) (n == 0 ? open : twice).insert(e);
+  if (!open.empty() || !twice.empty())
+    section.notes.push_back(fmt::format(
+        "the sets base, right, surface and left of the file leave out {:.6g} m of the outer "
+        "boundary, and {:.6g} m are in two of them or twice in one: together they should cover it "
+        "once",
+        length(section.mesh, open), length(section.mesh, twice)));
 }
 
 }  // namespace
@@ -55,6 +145,7 @@ std::vector<Edge> outer_edges(const QuadMesh& mesh) {
 void add_outer_sets(SectionMesh& section) {
   const QuadMesh& mesh = section.mesh;
   const std::vector<Edge> loop = outer_edges(mesh);
+  turn_given(section, loop);
   const auto [lowest, highest] =
       std::minmax_element(mesh.nodes.begin(), mesh.nodes.end(),
                           [](const Vec2& a, const Vec2& b) { return a[0] < b[0]; });
@@ -76,14 +167,15 @@ void add_outer_sets(SectionMesh& section) {
   };
   const auto left = run_at(x_left), right = run_at(x_right);
   if (left.first == n || right.first == n) {
-    section.notes.push_back(
-        "the section has no vertical ends, so there are no sets base, right, surface and left");
+    note_not_found(section, loop);
     return;
   }
   const auto add = [&section](const std::string& name, std::vector<Edge> edges) {
-    const bool exists = std::any_of(section.sets.begin(), section.sets.end(),
-                                    [&name](const EdgeSet& set) { return set.name == name; });
-    if (!exists) section.sets.push_back({name, std::move(edges)});
+    const auto given = std::ranges::find(section.sets, name, &EdgeSet::name);
+    if (given == section.sets.end())
+      section.sets.push_back({name, std::move(edges)});
+    else
+      compare_given(section, *given, edges);
   };
   add("base", part(loop, left.second, right.first));
   add("right", part(loop, right.first, right.second));

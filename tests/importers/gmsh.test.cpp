@@ -179,6 +179,39 @@ TEST_CASE("soil that is not joined is refused") {
                  Contains("Coherence"));
 }
 
+TEST_CASE("a curve in two physical groups is in the sets of both, whatever the format") {
+  // The base is in 'drain' too: 2.2 repeats its lines, 4.1 lists both groups with the curve.
+  std::string two = kFormat2, four = kFormat4;
+  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+           {"$PhysicalNames\n3\n", "$PhysicalNames\n4\n1 7 \"drain\"\n"},
+           {"$Elements\n6\n", "$Elements\n8\n12 1 2 7 1 1 2\n13 1 2 7 1 3 2\n"}})
+    two.replace(two.find(from), from.size(), to);
+  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+           {"$PhysicalNames\n3\n", "$PhysicalNames\n4\n1 7 \"drain\"\n"},
+           {"2 0 0 1 5 2 1 -3", "2 0 0 2 5 7 2 1 -3"}})
+    four.replace(four.find(from), from.size(), to);
+  for (const std::string& text : {two, four}) {
+    const SectionMesh s = read(text);
+    CHECK(s.sets.size() == 3);
+    for (const char* name : {"base", "drain"})
+      CHECK(find_set(s, name).edges == std::vector<std::array<std::int32_t, 2>>{{0, 1}, {1, 2}});
+  }
+  // Groups of one name are one set, their common lines in it once.
+  two.replace(two.find("1 7 \"drain\""), 11, "1 7 \"base\"");
+  CHECK(find_set(read(two), "base").edges.size() == 2);
+}
+
+TEST_CASE("a physical group with two names is refused with its line") {
+  CHECK_THAT(error_of(kFormat2, "3\n1 5 \"base\"\n", "4\n1 5 \"base\"\n1 5 \"drain\"\n"),
+             Contains("dam.msh:7") && Contains("is 'drain', and was 'base'"));
+  // The same once more, and a surface of the number of a curve, contradict nothing.
+  CHECK(error_of(kFormat2, "3\n1 5 \"base\"\n", "4\n1 5 \"base\"\n1 5 \"base\"\n") == "no error");
+  CHECK(error_of(kFormat2, "3\n1 5 \"base\"\n", "4\n1 5 \"base\"\n2 5 \"sand\"\n") == "no error");
+  CHECK_THAT(error_of(kFormat2, "$Nodes\n",
+                      "$PhysicalNames\n1\n1 6 \"drain\"\n$EndPhysicalNames\n$Nodes\n"),
+             Contains("dam.msh:10: a second $PhysicalNames"));
+}
+
 TEST_CASE("odd characters in gmsh files are named") {
   CHECK_THAT(error_of(kFormat2, "6 2 1 0", "6 2,5 1 0"), Contains("decimal comma"));
   CHECK_THAT(error_of(kFormat2, "6 2 1 0",

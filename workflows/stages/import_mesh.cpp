@@ -21,7 +21,7 @@ SectionMesh imported(const MeshImportConfig& config) {
 struct ImportMeshStage {
   static constexpr std::string_view name = "import.mesh";
   static constexpr std::string_view doc = "Reads a mesh of gmsh, or tables of nodes and elements.";
-  static constexpr int version = 2;
+  static constexpr int version = 3;
   static constexpr bool checkpoints = false;
   using Config = MeshImportConfig;
   struct Inputs {
