@@ -1,7 +1,8 @@
 #include "importers/mesh_overlap.hpp"
 
+#include "core/elementary.hpp"
+
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <tuple>
 #include <utility>
@@ -29,7 +30,7 @@ struct Contact {
   Vec2 at{};
 };
 
-double distance(const Vec2& a, const Vec2& b) { return std::hypot(b[0] - a[0], b[1] - a[1]); }
+double distance(const Vec2& a, const Vec2& b) { return hypot(b[0] - a[0], b[1] - a[1]); }
 
 double cross(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
