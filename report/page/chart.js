@@ -41,7 +41,10 @@ class Chart {
       "span",
       { class: "buttons" },
       (this.reset = button("whole", "Show the whole range again", () => this.zoom(...this.full))),
-      button("SVG", "Save this chart as SVG", () => this.save()),
+      ...saveButtons(
+        () => this.title,
+        () => this.svg,
+      ),
     );
   }
 
@@ -401,9 +404,5 @@ class Chart {
     else if (event.key === "Enter" && this.pick) this.pick(middle);
     else return;
     event.preventDefault();
-  }
-
-  save() {
-    saveDrawing(this.title, this.svg);
   }
 }

@@ -103,8 +103,8 @@ function onWidth(element, redraw) {
   }).observe(element);
 }
 
-/** A drawing as a file, with the styles that the page gives it, for a paper: always light. */
-function saveDrawing(title, svg) {
+/** A drawing as text, with the styles that the page gives it, for a paper: always light. */
+function drawingAlone(svg) {
   const copy = svg.cloneNode(true);
   const root = document.documentElement,
     theme = root.dataset.theme;
@@ -122,6 +122,38 @@ function saveDrawing(title, svg) {
   const [, , width, height] = svg.getAttribute("viewBox").split(" ");
   copy.setAttribute("width", width);
   copy.setAttribute("height", height);
-  const name = title.toLowerCase().replace(/[^a-z0-9]+/g, "-");
-  save(`${name}.svg`, new Blob([copy.outerHTML], { type: "image/svg+xml" }));
+  return { text: copy.outerHTML, width: +width, height: +height };
+}
+
+const fileName = (title) => title.toLowerCase().replace(/[^a-z0-9]+/g, "-");
+const svgBlob = (text) => new Blob([text], { type: "image/svg+xml" });
+
+function saveDrawing(title, svg) {
+  save(`${fileName(title)}.svg`, svgBlob(drawingAlone(svg).text));
+}
+
+/** The same as a picture of points, for programs that take no drawings: white behind, four points
+    for each of the screen's. */
+async function savePicture(title, svg) {
+  const { text, width, height } = drawingAlone(svg),
+    image = new Image();
+  image.src = URL.createObjectURL(svgBlob(text));
+  await image.decode();
+  const canvas = make("canvas", { width: Math.round(4 * width), height: Math.round(4 * height) }),
+    pen = canvas.getContext("2d");
+  pen.fillStyle = "#fff";
+  pen.fillRect(0, 0, canvas.width, canvas.height);
+  pen.drawImage(image, 0, 0, canvas.width, canvas.height);
+  URL.revokeObjectURL(image.src);
+  const blob = await new Promise((done) => canvas.toBlob(done, "image/png"));
+  save(`${fileName(title)}.png`, blob);
+}
+
+/** Buttons that save a drawing; `svg` gives it as it is then. */
+function saveButtons(title, svg) {
+  return Object.entries({ SVG: saveDrawing, PNG: savePicture }).map(([kind, action]) => {
+    const help = `Save this chart as ${kind}`;
+    const onclick = () => void action(title(), svg());
+    return make("button", { type: "button", title: help, "aria-label": help, onclick }, kind);
+  });
 }

@@ -121,7 +121,8 @@ Settings perturbations(const YamlNode& workflow, const Repeat& repeat, std::size
           fmt::format("{}: {} is not written in the workflow (a repeat scales what is "
                       "there). Add it under 'set'.",
                       repeat.place, path));
-    if (std::any_of(set.begin(), set.end(), [&](const auto& s) { return s.first == path; }))
+    if (std::any_of(set.begin(), set.end(),
+                    [&, &path = path](const auto& s) { return s.first == path; }))
       throw InputError(
           fmt::format("{}: {} is disturbed twice, by 'scale' and by 'motion' or 'grid' (only one "
                       "would act). Take one away.",

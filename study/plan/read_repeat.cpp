@@ -11,8 +11,9 @@ constexpr double kUsualStep = 1e-6;
 double read_step(const YamlNode& node, std::size_t count) {
   const double step = read_number(node);
   constexpr double kLargest = 1e-3;
-  if (const double most = step * static_cast<double>(count / 2);
-      step >= 0.0 && step <= kLargest && most > kLargest * (1.0 + 1e-9))
+  const std::size_t steps = count / 2;
+  const double most = step * static_cast<double>(steps);
+  if (step >= 0.0 && step <= kLargest && most > kLargest * (1.0 + 1e-9))
     throw node.error(fmt::format(
         "{:g} becomes {:g} in the last of {} realisations (a change from 0 to {:g} means nothing "
         "to the dam; a larger one is an input). Make it or their number smaller.",

@@ -126,6 +126,31 @@ def check_zoom(page):
     expect("a button shows all", page.run(ticks) == whole)
 
 
+def check_saving(page):
+    """What a click saves: its name and type, its size, and whether anything is on it."""
+    page.run("(() => { window.kept = []; const link = HTMLAnchorElement.prototype, old = link.click; "
+             "const make = URL.createObjectURL; let last; "
+             "URL.createObjectURL = (b) => ((last = b), make.call(URL, b)); "
+             "link.click = function () { this.download ? kept.push([this.download, last]) "
+             ": old.call(this); }; })()")
+    for place in (".explorer", "#charts figure"):
+        for kind in ("SVG", "PNG"):
+            before = page.run("kept.length")
+            page.run(f"[...document.querySelectorAll('{place} button')]"
+                     f".find(b => b.textContent === '{kind}').click()")
+            page.wait(f"kept.length > {before}")
+            name, mime = page.run("[kept.at(-1)[0], kept.at(-1)[1].type]")
+            expect(f"{place}: {name} is saved", name.endswith("." + kind.lower()) and
+                   mime == {"SVG": "image/svg+xml", "PNG": "image/png"}[kind])
+        width, dark = page.run(
+            "createImageBitmap(kept.at(-1)[1]).then((b) => { const c = new OffscreenCanvas(b.width, "
+            "b.height), pen = c.getContext('2d'); pen.drawImage(b, 0, 0); const d = "
+            "pen.getImageData(0, 0, b.width, b.height).data; let n = 0; for (let i = 0; i < d.length; "
+            "i += 4) n += d[i] + d[i + 1] + d[i + 2] < 600; return [b.width, n]; })")
+        expect(f"{place}: the picture has {width} points across, {dark} of them dark",
+               width > 1000 and 1000 < dark < 2_000_000)
+
+
 def frame_source(page, side):
     return page.run(f"document.querySelector('iframe[name={side}]').src")
 
@@ -318,6 +343,7 @@ def main(test_study, test_report, pictures=None):
             check_explorer(page)
             check_choices(page)
             check_zoom(page)
+            check_saving(page)
             check_opening(page)
             check_together(page)
             alone = folder / "alone"

@@ -43,10 +43,13 @@ class Explorer {
       button("+", "Come closer", () => chart.closer(1.5)),
       button("\u2212", "Go farther", () => chart.closer(1 / 1.5)),
       this.wholeButton,
-      button("SVG", "Save this view as SVG", () => {
-        chart.pointAt(null);
-        saveDrawing(`${this.y.label} against ${this.x.label}`, chart.svg);
-      }),
+      ...saveButtons(
+        () => `${this.y.label} against ${this.x.label}`,
+        () => {
+          chart.pointAt(null);
+          return chart.svg;
+        },
+      ),
     );
     const pool = make("input", {
       type: "checkbox",

@@ -10,6 +10,13 @@ function start() {
     explorer = new Explorer({ rows, start: data.start, runs });
     place.replaceChildren(explorer.element);
   } else place.replaceChildren(make("p", {}, "No row has told a number yet."));
+  for (const figure of document.querySelectorAll("#charts figure")) {
+    const words = figure.querySelector("figcaption"),
+      svg = figure.querySelector("svg");
+    words.append(
+      make("span", { class: "buttons" }, ...saveButtons(() => words.firstChild.textContent, () => svg)),
+    );
+  }
   const redraw = () => explorer?.chart.render();
   document
     .getElementById("tools")
