@@ -62,9 +62,9 @@ fs::path study_folder(const StudyArguments& args, const study::Plan& plan) {
                     folder.string()));
   if (const fs::path of = file_of_study(folder);
       fs::exists(of, error) && !fs::equivalent(of, plan.file, error))
-    throw InputError(fmt::format(
-        "{}: holds the study of {} (its table and report would be replaced by those of {}). "
-        "Give one of them another 'name', or choose another --out.",
+    print_warning(fmt::format(
+        "{}: holds the study of {}: its table and report are replaced by those of {}, and what both "
+        "have computed is kept. If they are two studies, give one another 'name' or --out.",
         folder.string(), of.string(), plan.file.string()));
   return fs::absolute(folder);
 }
