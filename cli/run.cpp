@@ -5,6 +5,7 @@
 #include "cli/usage.hpp"
 #include "config/yaml.hpp"
 #include "core/check.hpp"
+#include "study/run/store.hpp"
 #include "workflows/engine/headlines.hpp"
 #include "workflows/engine/lock.hpp"
 #include "workflows/engine/publish.hpp"
@@ -97,7 +98,7 @@ int run(const RunArguments& args) {
   fs::path folder = args.out;
   if (folder.empty())
     folder = fs::path("runs") / workflow_name(load_yaml(args.file, args.overrides));
-  if (std::error_code error; fs::exists(folder / "study.json", error))
+  if (std::error_code error; fs::exists(folder / study::kPlanFile, error))
     throw InputError(fmt::format(
         "{}: holds a study (the result of a single run would be mixed with its own). Choose another "
         "--out.",

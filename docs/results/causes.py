@@ -11,7 +11,7 @@ STAND_IN = ("single depths hang on the record; PGV and MASI of seven of the ten 
 KNOWN = ("not by the record's PGV or MASI, which the stand-in has to 3 %: by what a record has besides "
          "them, or by the model. With the soil's own damping 5 m more liquefy at 0.4 g, and no more "
          f"at 0.3 g ({DAM}).")
-DEEP = ("not known. A late onset explains no depth: here all that has liquefied flows in the end, and "
+DEEP = ("not known. A late onset explains no depth: here nearly all that has liquefied flows in the end, and "
         "soil above the foundation with it.")
 STATIC = ("not known. The static model takes all tailings below the water as liquefied, the shakings "
           "compared here 18 m of them and more; momentum and displacement of the shaking are carried "

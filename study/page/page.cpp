@@ -117,7 +117,7 @@ class Writer {
         levels_table(table_, f_);
     std::string others;
     for (const Threshold& t : f_.thresholds)
-      if (t.y != f_.results.front()) others += threshold_sentence(table_, t);
+      if (f_.results.empty() || t.y != f_.results.front()) others += threshold_sentence(table_, t);
     if (!others.empty()) html_ += "<ul>" + others + "</ul>";
     close();
   }

@@ -5,7 +5,7 @@
 
 namespace flowslide::study {
 
-/// ": 120 of base, 8 of them again as repeats, 6 of static"; empty where there is one kind of row.
+/// ": 120 of base, 4 of static, and 10 repeats of them"; empty where there is one kind of row.
 std::string counted_rows(const Plan& plan);
 
 /// Section: inputs with their values and the settings that they set, what repeats disturb, what the

@@ -53,7 +53,7 @@ std::string how_far(const Plan& plan, const Table& table, const StudyFindings& f
                        with_unit(table, result, weighted_quantile(all, 0.95))));
   const bool sampled =
       std::any_of(plan.inputs.begin(), plan.inputs.end(), [](const Input& i) { return i.sampled; });
-  if (!sampled)
+  if (!sampled && !plan.inputs.empty())
     text += item(
         "Rows are combinations of the inputs, none likelier than another: their shares are "
         "no probabilities.");
@@ -140,12 +140,11 @@ std::string what_would_change_it(const Table& table, const StudyFindings& f) {
     const Column* input = table.find(s->input);
     const std::string unit =
         input && input->is_number && !input->unit.empty() ? " " + input->unit : "";
-    text += item(fmt::format(
-        "<b>{}</b>: {} on average {}, {} {}: {}{} ({} to {}){}.", xml_text(s->input),
-        with_unit(table, result, e.low), xml_text(at(e.low_label) + unit),
-        with_unit(table, result, e.high), xml_text(at(e.high_label) + unit),
-        e.swing.value > 0.0 ? "+" : "", short_number(e.swing.value), short_number(e.swing.low),
-        short_number(e.swing.high), noise ? "; no more than numerics do" : ""));
+    text += item(fmt::format("<b>{}</b>: {} on average {}, {} {}: {}{}{}.", xml_text(s->input),
+                             with_unit(table, result, e.low), xml_text(at(e.low_label) + unit),
+                             with_unit(table, result, e.high), xml_text(at(e.high_label) + unit),
+                             e.swing.value > 0.0 ? "+" : "", interval(e.swing),
+                             noise ? "; no more than numerics do" : ""));
   }
   for (const Comparison& c : f.comparisons)
     if (c.result == result && c.where.empty())

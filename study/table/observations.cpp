@@ -89,10 +89,12 @@ std::vector<std::size_t> Observations::places(const Column& x, const Column& y) 
     // of x that of the first row: repeats move it by what means nothing
     const auto [it, is_new] =
         node == kNoNode ? std::pair{best.end(), true} : best.try_emplace({x.text[row(i)], node}, i);
-    if (is_new)
+    if (is_new) {
       found.push_back(i);
-    else if (repeated[i] > repeated[it->second])
-      *std::find(found.begin(), found.end(), it->second) = i, it->second = i;
+    } else if (repeated[i] > repeated[it->second]) {
+      *std::find(found.begin(), found.end(), it->second) = i;
+      it->second = i;
+    }
   }
   std::sort(found.begin(), found.end());
   return found;

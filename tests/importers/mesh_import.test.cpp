@@ -1,6 +1,7 @@
 #include "importers/mesh_import.hpp"
 
 #include "core/check.hpp"
+#include "tests/importers/two_elements.hpp"
 #include "tests/support/data_folder.hpp"
 
 #include <catch2/catch.hpp>
@@ -11,8 +12,7 @@ using flowslide::test::DataFolder;
 
 namespace {
 
-const std::string kNodes = "1 0 0\n2 1 0\n3 2 0\n4 0 1\n5 1 1\n6 2 1\n";
-const std::string kElements = "10 1 2 5 4 168\n20 2 3 6 5 170\n";
+const std::string &kNodes = flowslide::test::kTwoNodes, &kElements = flowslide::test::kTwoElements;
 
 struct Tables {
   DataFolder folder;

@@ -213,6 +213,20 @@ TEST_CASE("A column that is not there is refused by its name", "[study]") {
   CHECK_THROWS_WITH(analyse(plan, table), Contains("no column of numbers 'runout'"));
 }
 
+TEST_CASE("A page can have thresholds and no result", "[study]") {
+  StudyBench bench;
+  const Plan plan = bench.plan(
+      "  vary: {one: {setting: stages.one.with.value, range: {from: 1, to: 9, step: 1}}}\n"
+      "  analysis: {thresholds: [[one, sum]]}\n");
+  bench.run(plan);
+  const Table table = make_table(plan, bench.progress(plan));
+  StudyFindings f = analyse(plan, table);
+  f.results.clear();
+  f.scatter.clear();
+  f.exceedance.clear();
+  CHECK_THAT(make_page(plan, table, f).html, Contains("<li>sum against one: "));
+}
+
 TEST_CASE("A fact that has the name of a variable is another column", "[study]") {
   StudyBench bench;
   const Plan plan = bench.plan("  vary: {sum: {setting: stages.one.with.value, values: [1, 2]}}\n");
