@@ -116,6 +116,11 @@ Deposit run(DryColumn c, int cells) {
   p.materials = {grains(c, height)};
   FlowConfig config = free_space(cell);
   config.transfer = c.transfer;
+  config.basis = c.basis;
+  if (c.basis == BasisKind::mls) {  // as the workflows have it
+    config.courant = 0.98;
+    config.strain_limit = 0.1;
+  }
   config.gravity = kGravity;
   config.ground.surface = {{0.0, 0.0}};
   config.ground.friction = is_set(c.ground) ? c.ground : c.friction;
@@ -151,7 +156,8 @@ DryColumn beads(double aspect) {
           .width = 0.045,
           .friction = tan(27.4 * kPi / 180.0),
           .wall_friction = tan(24.8 * kPi / 180.0),
-          .grain = 1.15e-3};
+          .grain = 1.15e-3,
+          .basis = BasisKind::mls};
 }
 
 Deposit collapse(const DryColumn& column, int cells) {
