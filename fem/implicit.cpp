@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include <omp.h>
+
 namespace flowslide::fem {
 namespace {
 
@@ -88,7 +90,7 @@ bool ImplicitSteps::follow_soil(Solver& s) {
     largest = std::max(largest, s.element_sums[c].largest_strain);
   }
   if (!(largest <= kLargestStrainStep)) return false;
-  StressQueue queue(s.layout);
+  StressQueue queue(s.layout, omp_get_max_threads());
 #pragma omp parallel
   {
     update_stresses(s, queue);
