@@ -1,5 +1,6 @@
 #include "cli/command.hpp"
 #include "cli/terminal.hpp"
+#include "cli/usage.hpp"
 #include "core/units.hpp"
 #include "motion/table.hpp"
 
@@ -45,7 +46,8 @@ void add_motion(CLI::App& app, Command& action) {
   auto options = std::make_shared<MotionOptions>();
   CLI::App* command = app.add_subcommand("motion", "Measure earthquake records");
   command->add_option("files", options->files, "AT2, or columns of text or CSV; plain or gzip")
-      ->required();
+      ->required()
+      ->check(input_name());
   command->add_option("--pga", options->pga, "scale to this peak, such as 0.3g, for PGV and MASI");
   command->add_option("--unit", options->format.unit,
                       "acceleration unit of files that do not state it: g, cm/s2, m/s2");

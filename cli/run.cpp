@@ -175,7 +175,7 @@ void add_run(CLI::App& app, Command& action) {
   auto args = std::make_shared<RunArguments>();
   CLI::App* command =
       app.add_subcommand("run", "Run the stages of a workflow that are not up to date");
-  command->add_option("file", args->file, "workflow, FILE.yaml")->required();
+  command->add_option("file", args->file, "workflow, FILE.yaml")->required()->check(input_name());
   command->add_option("--out", args->out, "folder of the results [runs/<name of the workflow>]")
       ->check(output_name());
   command->add_option("--threads", args->threads, "number of threads [all]")
@@ -194,7 +194,7 @@ void add_run(CLI::App& app, Command& action) {
 void add_check(CLI::App& app, Command& action) {
   auto args = std::make_shared<RunArguments>();
   CLI::App* command = app.add_subcommand("check", "Check a workflow without running it");
-  command->add_option("file", args->file, "workflow, FILE.yaml")->required();
+  command->add_option("file", args->file, "workflow, FILE.yaml")->required()->check(input_name());
   command->add_option("--set", args->overrides, "override a setting")
       ->take_all()
       ->allow_extra_args(false);
@@ -226,7 +226,7 @@ void add_report(CLI::App& app, Command& action) {
   auto folder = std::make_shared<std::string>();
   auto programs = std::make_shared<std::vector<std::string>>();
   CLI::App* command = app.add_subcommand("report", "Build the report of a finished run again");
-  command->add_option("folder", *folder, "run folder, DIR")->required();
+  command->add_option("folder", *folder, "run folder, DIR")->required()->check(input_name());
   add_allow_python(*command, *programs);
   command->callback([folder, programs, &action] {
     action = [folder, programs] { return report(*folder, *programs); };

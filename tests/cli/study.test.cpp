@@ -203,3 +203,24 @@ TEST_CASE("a stage whose workflow was edited says so and leaves nothing behind",
   CHECK(o.code == 0);
   CHECK(o.out == "changed\n");
 }
+
+TEST_CASE("a result that no stage gives is refused before anything runs", "[cli]") {
+  const Scratch scratch;
+  write_study(scratch);
+  const std::string study = read_text_file(scratch / "s.yaml");
+  const auto dry = [&](const std::string& analysis) {
+    scratch.write("s.yaml", study + "  analysis: {" + analysis + "}\n");
+    return call(scratch, "study run s.yaml --dry-run");
+  };
+  CHECK(dry("results: [fem_frames]").code == 0);  // control
+  const Outcome o = dry("results: [fem_frames, fem_frame]");
+  CHECK(o.code == 2);
+  CHECK_THAT(o.err, Contains("s.yaml:9:35: analysis.results: no stage of the study gives a number "
+                             "'fem_frame'") &&
+                        Contains("Did you mean 'fem_frames'?"));
+  CHECK_THAT(dry("results: runout_m").err, Contains("They give"));
+  CHECK_THAT(dry("results: [rule]").err, Contains("is an input of the study and no result"));
+  CHECK_THAT(dry("thresholds: [[fem_nodes, fem_element]]").err,
+             Contains("analysis.thresholds") && Contains("'fem_elements'?"));
+  CHECK_FALSE(std::filesystem::exists(scratch / "runs"));
+}
