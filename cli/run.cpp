@@ -64,8 +64,9 @@ void print_result(const fs::path& folder, std::size_t warnings, const Expectatio
   for (const Headline& h : headlines_of(result.dump())) {
     const auto value = result.find(h.fact);
     if (value == result.end() || !value->is_number()) continue;
-    fmt::print("{:<{}} {:.4g}{}{}{}\n", h.text, label, value->get<double>(),
-               h.unit.empty() ? "" : " ", h.unit, h.note.empty() ? "" : " (" + h.note + ")");
+    print_wrapped(stdout, fmt::format("{:<{}} ", h.text, label),
+                  fmt::format("{:.4g}{}{}{}", value->get<double>(), h.unit.empty() ? "" : " ",
+                              h.unit, h.note.empty() ? "" : " (" + h.note + ")"));
   }
   if (time.expected > 0.0)
     print_wrapped(
@@ -130,6 +131,10 @@ int run(const RunArguments& args) {
 /// The workflow of a run folder, with the stages that write reports done again and no other.
 int report(const std::string& folder, const std::vector<std::string>& allowed_programs) {
   const auto [lock, problem] = read_lock(folder);
+  std::error_code error;
+  if (!std::filesystem::exists(folder, error))
+    throw InputError(fmt::format(
+        "{}: no run folder (there is no such folder). Name the folder of a finished run.", folder));
   if (!lock)
     throw InputError(fmt::format("{}: no run folder ({}). Name the folder of a finished run.",
                                  folder, problem.empty() ? "it has no run.lock" : problem));

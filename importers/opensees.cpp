@@ -57,7 +57,12 @@ void apply_bad_rows(const RecorderScan& scan, BadRows policy, std::vector<std::s
     return;
   }
   std::string text = fmt::format("{}", fmt::join(scan.problems, "\n  "));
-  if (scan.non_finite > 0)
+  if (scan.non_finite > 0 && scan.good_rows == 0)
+    text = fmt::format(
+        "{}: {} values are not finite, from the first row on (the run diverged?) compute it again. "
+        "First positions:\n  {}",
+        scan.file, scan.non_finite, text);
+  else if (scan.non_finite > 0)
     text = fmt::format(
         "{}: {} values are not finite (the run diverged?) set `bad_rows: stop` to use the {} rows "
         "before them. First positions:\n  {}",

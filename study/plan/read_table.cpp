@@ -23,12 +23,19 @@ struct Line {
   std::vector<std::string> cells;
 };
 
+/// Without the quotes that some programs put around every cell.
+std::string unquoted(std::string cell) {
+  if (cell.size() < 2 || cell.front() != '"' || cell.back() != '"') return cell;
+  const std::string inside = cell.substr(1, cell.size() - 2);
+  return inside.find('"') == std::string::npos ? trimmed(inside) : cell;
+}
+
 /// What stands after a last comma is a cell, if an empty one.
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells;
   for (std::size_t begin = 0;;) {
     const std::size_t end = line.find(',', begin);
-    cells.push_back(trimmed(line.substr(begin, end - begin)));
+    cells.push_back(unquoted(trimmed(line.substr(begin, end - begin))));
     if (end == std::string::npos) return cells;
     begin = end + 1;
   }
@@ -42,10 +49,12 @@ void check_line(const YamlNode& node, const std::string& file, const Line& heade
   };
   const std::size_t expected = header.cells.size(), found = line.cells.size();
   if (found != expected) {
-    const std::string odd = text.find(';') != std::string::npos
-                                ? "has semicolons (commas part the cells) write ',' between cells "
-                                  "and '.' in numbers"
-                                : odd_characters(text);
+    std::string odd = text.find(';') != std::string::npos
+                          ? "has semicolons (commas part the cells) write ',' between cells "
+                            "and '.' in numbers"
+                          : odd_characters(text);
+    // Where commas part the cells, one between digits is a decimal comma in quotes only.
+    if (odd.starts_with("has a decimal comma") && text.find('"') == std::string::npos) odd.clear();
     throw refuse(
         fmt::format("has {} cell{}, and the header {} ({}). {}.", found, found == 1 ? "" : "s",
                     expected, fmt::join(header.cells, ", "),

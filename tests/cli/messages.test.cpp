@@ -28,6 +28,8 @@ TEST_CASE("what a command line has wrong is named with what may be meant", "[cli
       {"point x.yaml --csv='~/x'", "'~' is not expanded"},
       {"convert x.h5 ''", "is empty"},
       {"docs '~'", "'~' is not expanded"},
+      {"motion x.csv --pga 0.3", "--pga: '0.3' has no unit"},
+      {"motion x.csv --dt 0.01g", "--dt: "},
       {"run ''", "file: is empty"},
       {"check ' '", "file: is blank"},
       {"motion ''", "files: is empty"},

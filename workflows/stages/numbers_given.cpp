@@ -43,7 +43,8 @@ constexpr std::string_view kOfMovement =
 constexpr std::string_view kOfWindow =
     "m any_node_m interpolated_m strong_shaking_m before_slide_m";
 
-void add(std::vector<std::string>& all, std::string_view words, const std::string& before = "") {
+void add_names(std::vector<std::string>& all, std::string_view words,
+               const std::string& before = "") {
   std::istringstream in{std::string(words)};
   for (std::string word; in >> word;) all.push_back(before + word);
 }
@@ -68,24 +69,25 @@ std::vector<std::string> entries(std::string_view settings, std::string_view tab
 
 std::vector<std::string> numbers_given(std::string_view type, std::string_view settings) {
   std::vector<std::string> all;
-  if (type == "mesh.section" || type == "import.mesh") add(all, kOfMesh);
+  if (type == "mesh.section" || type == "import.mesh") add_names(all, kOfMesh);
   if (type == "motion.prepare")
-    add(all, "pga_m_s2 pgv_m_s arias_m_s d5_95_s tm_s cav_m_s masi_m_s dt_s duration_s", "motion_");
-  if (type == "fem.run") add(all, kOfShaking);
-  if (type == "import.opensees") add(all, "fem_nodes fem_elements fem_frames");
+    add_names(all, "pga_m_s2 pgv_m_s arias_m_s d5_95_s tm_s cav_m_s masi_m_s dt_s duration_s",
+              "motion_");
+  if (type == "fem.run") add_names(all, kOfShaking);
+  if (type == "import.opensees") add_names(all, "fem_nodes fem_elements fem_frames");
   if (type == "transfer.zone") {
-    add(all, "transfer_time_s onset_time_s strong_shaking_end_s");
+    add_names(all, "transfer_time_s onset_time_s strong_shaking_end_s");
     for (const std::string& window : entries(settings, "windows"))
-      add(all, kOfWindow, "liquefaction_depth_" + window + "_");
+      add_names(all, kOfWindow, "liquefaction_depth_" + window + "_");
   }
-  if (type == "transfer.map") add(all, "particles audit_passed");
-  if (type == "transfer.sordo2024") add(all, "particles");
-  if (type == "mpm.run") add(all, kOfFlow);
+  if (type == "transfer.map") add_names(all, "particles audit_passed");
+  if (type == "transfer.sordo2024") add_names(all, "particles");
+  if (type == "mpm.run") add_names(all, kOfFlow);
   if (type == "report.runout") {
-    add(all, kOfReport);
-    add(all, kOfMovement, "materials.*.");
+    add_names(all, kOfReport);
+    add_names(all, kOfMovement, "materials.*.");
     for (const std::string& region : entries(settings, "regions"))
-      add(all, kOfMovement, "regions." + region + ".");
+      add_names(all, kOfMovement, "regions." + region + ".");
   }
   return all;
 }
