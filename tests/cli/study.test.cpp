@@ -240,7 +240,7 @@ TEST_CASE("a result that no stage gives is refused before anything runs", "[cli]
   CHECK(dry("results: [fem_frames]").code == 0);  // control
   const Outcome o = dry("results: [fem_frames, fem_frame]");
   CHECK(o.code == 2);
-  CHECK_THAT(o.err, Contains("s.yaml:9:35: analysis.results: no stage of the study gives a number "
+  CHECK_THAT(o.err, Contains("s.yaml:10:36: analysis.results: no stage of the study gives a number "
                              "'fem_frame'") &&
                         Contains("Did you mean 'fem_frames'?"));
   CHECK_THAT(dry("results: runout_m").err, Contains("They give"));

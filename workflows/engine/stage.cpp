@@ -54,13 +54,13 @@ FileError locate_file(const YamlNode& settings, std::string_view text) {
   const YamlNode node = follow(settings, path);
   // A default, or an entry of a list: the place of what is written above it.
   if (node.kind() != YamlNode::Kind::scalar) return FileError(node.error(text).what());
-  const std::filesystem::path file = node.folder() / node.scalar();
+  const std::filesystem::path file = (node.folder() / node.scalar()).lexically_normal();
   std::string why = why_unreadable(file);
   if (why.starts_with("no such file") && std::filesystem::path(node.scalar()).is_relative() &&
       why.find('~') == std::string::npos)
     why += where_looked(node, file);
   if (why.empty()) return FileError(node.error(text.substr(colon + 2)).what());
-  return FileError(node.error(fmt::format("{}: {}", file.lexically_normal().string(), why)).what());
+  return FileError(node.error(fmt::format("{}: {}", file.string(), why)).what());
 }
 
 }  // namespace flowslide::detail
