@@ -1,5 +1,6 @@
 #include "cli/case_list.hpp"
 #include "cli/command.hpp"
+#include "cli/usage.hpp"
 
 #include <cstdio>
 #include <memory>
@@ -40,7 +41,7 @@ int bench(const BenchOptions& options) {
 void add_bench(CLI::App& app, Command& action) {
   auto options = std::make_shared<BenchOptions>();
   CLI::App* command = app.add_subcommand("bench", "Measure speed, and error against cost");
-  command->add_option("names", options->names, "groups or benchmarks [all]");
+  command->add_option("names", options->names, "groups or benchmarks [all]")->check(input_name());
   command->add_flag("--json", options->json, "as JSON");
   command->add_flag("--large", options->large,
                     "also the large ones, which are otherwise run by name only");

@@ -15,7 +15,7 @@ void add_convert(CLI::App& app, Command& action) {
   auto options = std::make_shared<ConvertOptions>();
   CLI::App* command = app.add_subcommand("convert", "Convert between supported formats");
   command->footer("Conversions:" + known_conversions());
-  command->add_option("in", options->in, "file or folder")->required();
+  command->add_option("in", options->in, "file or folder")->required()->check(input_name());
   command->add_option("out", options->out, "file, whose ending says the format, or folder")
       ->required()
       ->check(output_name());

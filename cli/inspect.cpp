@@ -1,6 +1,7 @@
 #include "exchange/inspect.hpp"
 
 #include "cli/command.hpp"
+#include "cli/usage.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -82,7 +83,7 @@ void add_inspect(CLI::App& app, Command& action) {
   auto path = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
   CLI::App* command = app.add_subcommand("inspect", "Say what a file or run folder is");
-  command->add_option("path", *path, "file or folder")->required();
+  command->add_option("path", *path, "file or folder")->required()->check(input_name());
   command->add_flag("--json", *json, "as JSON");
   command->callback([path, json, &action] {
     action = [path, json] {

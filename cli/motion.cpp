@@ -1,5 +1,6 @@
 #include "cli/command.hpp"
 #include "cli/terminal.hpp"
+#include "cli/usage.hpp"
 #include "core/units.hpp"
 #include "motion/table.hpp"
 
@@ -21,10 +22,19 @@ struct MotionOptions {
   bool json = false;
 };
 
+/// The value of an option with its unit; nothing if it was not given.
+std::optional<double> quantity(const char* option, const std::string& text, Dim dim) {
+  if (text.empty()) return std::nullopt;
+  try {
+    return parse_quantity(text, dim);
+  } catch (const InputError& e) {
+    throw InputError(fmt::format("{}: {}", option, e.what()));
+  }
+}
+
 int measure_records(MotionOptions options) {
-  std::optional<double> pga;
-  if (!options.pga.empty()) pga = parse_quantity(options.pga, Dim::acceleration);
-  if (!options.dt.empty()) options.format.dt = parse_quantity(options.dt, Dim::time);
+  const std::optional<double> pga = quantity("--pga", options.pga, Dim::acceleration);
+  if (const auto dt = quantity("--dt", options.dt, Dim::time)) options.format.dt = *dt;
   if (options.format.unit) unit_factor(*options.format.unit, Dim::acceleration);
   std::vector<MotionRow> rows;
   for (const std::string& file : options.files) {
@@ -45,7 +55,8 @@ void add_motion(CLI::App& app, Command& action) {
   auto options = std::make_shared<MotionOptions>();
   CLI::App* command = app.add_subcommand("motion", "Measure earthquake records");
   command->add_option("files", options->files, "AT2, or columns of text or CSV; plain or gzip")
-      ->required();
+      ->required()
+      ->check(input_name());
   command->add_option("--pga", options->pga, "scale to this peak, such as 0.3g, for PGV and MASI");
   command->add_option("--unit", options->format.unit,
                       "acceleration unit of files that do not state it: g, cm/s2, m/s2");

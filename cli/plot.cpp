@@ -43,7 +43,9 @@ void add_plot(CLI::App& app, Command& action) {
   auto options = std::make_shared<PlotOptions>();
   CLI::App* command = app.add_subcommand(
       "plot", "Draw section, mesh, water, windows and ground of a workflow, before it runs");
-  command->add_option("file", options->file, "workflow, FILE.yaml")->required();
+  command->add_option("file", options->file, "workflow, FILE.yaml")
+      ->required()
+      ->check(input_name());
   command->add_option("--out", options->out, "this file: .png, .svg or .pdf [NAME-section.png]")
       ->check(output_name());
   command->add_option("--python", options->python, "interpreter with Matplotlib [python3]");

@@ -41,7 +41,9 @@ int drive_point(const PointOptions& options) {
 void add_point(CLI::App& app, Command& action) {
   auto options = std::make_shared<PointOptions>();
   CLI::App* command = app.add_subcommand("point", "Drive one material point along a path");
-  command->add_option("file", options->file, "material, stress and path, YAML")->required();
+  command->add_option("file", options->file, "material, stress and path, YAML")
+      ->required()
+      ->check(input_name());
   command->add_option("--csv", options->csv, "write every step to this file")->check(output_name());
   command->add_option("--set", options->overrides, "override a setting, PATH=VALUE")
       ->take_all()

@@ -64,8 +64,9 @@ void print_result(const fs::path& folder, std::size_t warnings, const Expectatio
   for (const Headline& h : headlines_of(result.dump())) {
     const auto value = result.find(h.fact);
     if (value == result.end() || !value->is_number()) continue;
-    fmt::print("{:<{}} {:.4g}{}{}{}\n", h.text, label, value->get<double>(),
-               h.unit.empty() ? "" : " ", h.unit, h.note.empty() ? "" : " (" + h.note + ")");
+    print_wrapped(stdout, fmt::format("{:<{}} ", h.text, label),
+                  fmt::format("{:.4g}{}{}{}", value->get<double>(), h.unit.empty() ? "" : " ",
+                              h.unit, h.note.empty() ? "" : " (" + h.note + ")"));
   }
   if (time.expected > 0.0)
     print_wrapped(
@@ -130,6 +131,10 @@ int run(const RunArguments& args) {
 /// The workflow of a run folder, with the stages that write reports done again and no other.
 int report(const std::string& folder, const std::vector<std::string>& allowed_programs) {
   const auto [lock, problem] = read_lock(folder);
+  std::error_code error;
+  if (!std::filesystem::exists(folder, error))
+    throw InputError(fmt::format(
+        "{}: no run folder (there is no such folder). Name the folder of a finished run.", folder));
   if (!lock)
     throw InputError(fmt::format("{}: no run folder ({}). Name the folder of a finished run.",
                                  folder, problem.empty() ? "it has no run.lock" : problem));
@@ -175,7 +180,7 @@ void add_run(CLI::App& app, Command& action) {
   auto args = std::make_shared<RunArguments>();
   CLI::App* command =
       app.add_subcommand("run", "Run the stages of a workflow that are not up to date");
-  command->add_option("file", args->file, "workflow, FILE.yaml")->required();
+  command->add_option("file", args->file, "workflow, FILE.yaml")->required()->check(input_name());
   command->add_option("--out", args->out, "folder of the results [runs/<name of the workflow>]")
       ->check(output_name());
   command->add_option("--threads", args->threads, "number of threads [all]")
@@ -194,7 +199,7 @@ void add_run(CLI::App& app, Command& action) {
 void add_check(CLI::App& app, Command& action) {
   auto args = std::make_shared<RunArguments>();
   CLI::App* command = app.add_subcommand("check", "Check a workflow without running it");
-  command->add_option("file", args->file, "workflow, FILE.yaml")->required();
+  command->add_option("file", args->file, "workflow, FILE.yaml")->required()->check(input_name());
   command->add_option("--set", args->overrides, "override a setting")
       ->take_all()
       ->allow_extra_args(false);
@@ -226,7 +231,7 @@ void add_report(CLI::App& app, Command& action) {
   auto folder = std::make_shared<std::string>();
   auto programs = std::make_shared<std::vector<std::string>>();
   CLI::App* command = app.add_subcommand("report", "Build the report of a finished run again");
-  command->add_option("folder", *folder, "run folder, DIR")->required();
+  command->add_option("folder", *folder, "run folder, DIR")->required()->check(input_name());
   add_allow_python(*command, *programs);
   command->callback([folder, programs, &action] {
     action = [folder, programs] { return report(*folder, *programs); };

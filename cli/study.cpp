@@ -274,7 +274,7 @@ void add_study_run(CLI::App& study, Command& action) {
   const auto args = std::make_shared<StudyArguments>();
   CLI::App* command =
       add(study, action, "run", "Compute what is missing of a study", args, run_study);
-  command->add_option("file", args->file, "study, FILE.yaml")->required();
+  command->add_option("file", args->file, "study, FILE.yaml")->required()->check(input_name());
   command->add_option("--out", args->out, "folder of the study [runs/NAME]")->check(output_name());
   command->add_option("--jobs", args->jobs, "stages at once [one a processor]")
       ->check(CLI::Range(1, 4096));
@@ -300,7 +300,9 @@ void add_study(CLI::App& app, Command& action) {
   const auto on_folder = [&](const char* name, const char* doc, int (*act)(const StudyArguments&)) {
     const auto args = std::make_shared<StudyArguments>();
     CLI::App* command = add(*study, action, name, doc, args, act);
-    command->add_option("folder", args->out, "folder of the study, DIR")->required();
+    command->add_option("folder", args->out, "folder of the study, DIR")
+        ->required()
+        ->check(input_name());
     return std::pair{command, args};
   };
   const auto [status_command, status_args] = on_folder("status", "Tell how far a study is", status);
@@ -323,7 +325,8 @@ void add_study(CLI::App& app, Command& action) {
   CLI::App* part_command =
       study->add_subcommand("part", "Compute what a task of a job array is to compute");
   part_command->add_option("file", part->first, "what the array is to compute, FILE.json")
-      ->required();
+      ->required()
+      ->check(input_name());
   part_command->add_option("task", part->second, "number of the task, from 0")->required();
   part_command->callback(
       [part, &action] { action = [part] { return run_study_part(part->first, part->second); }; });

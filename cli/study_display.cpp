@@ -85,7 +85,10 @@ void StudyDisplay::begin(const std::filesystem::path& folder) {
                plan_.nodes.size(), done);
     std::fflush(stdout);
   }
-  for (const std::string& line : failures()) print_wrapped(stderr, "failed before: ", line);
+  for (const std::string& line : failures(Failed::planning))
+    print_wrapped(stderr, "cannot run: ", line);
+  for (const std::string& line : failures(Failed::running))
+    print_wrapped(stderr, "failed before: ", line);
 }
 
 void StudyDisplay::plan(const study::WorkCosts& costs, std::size_t jobs) const {
@@ -121,11 +124,14 @@ void StudyDisplay::plan(const study::WorkCosts& costs, std::size_t jobs) const {
   for (const auto& [stage, kind] : kinds)
     fmt::print("{:<8} {} to run of {}, {} of one processor\n", stage, kind.open, kind.all,
                about_seconds(kind.seconds));
-  fmt::print("all      {} to run of {}, {} of one processor, {} with {} at once\n", total.open,
-             total.all, about_seconds(total.seconds), about_seconds(lasts), jobs);
+  print_wrapped(stdout, "all      ",
+                fmt::format("{} to run of {}, {} of one processor, {} with {} at once", total.open,
+                            total.all, about_seconds(total.seconds), about_seconds(lasts), jobs));
   for (const study::Row& row : plan_.rows)
-    fmt::print("row {:>4}  {:<8} {}\n", row.number, name_of_state(progress_.row_state(row)),
-               harmless(row.label()));
+    print_wrapped(
+        stdout,
+        fmt::format("row {:>4}  {:<8} ", row.number, name_of_state(progress_.row_state(row))),
+        harmless(row.label()));
 }
 
 study::PoolEvents StudyDisplay::events() {
@@ -205,10 +211,11 @@ void StudyDisplay::close() {
   std::fflush(stdout);
 }
 
-std::vector<std::string> StudyDisplay::failures() const {
+std::vector<std::string> StudyDisplay::failures(Failed which) const {
   std::vector<std::pair<std::string, std::vector<const study::Row*>>> causes;
   for (const study::Row& row : plan_.rows) {
     if (progress_.row_state(row) != State::failed) continue;
+    if (which != Failed::any && row.problem.empty() != (which == Failed::running)) continue;
     const std::string cause = first_line(progress_.cause(row));
     const auto known =
         std::find_if(causes.begin(), causes.end(), [&](const auto& c) { return c.first == cause; });

@@ -43,7 +43,8 @@ class StudyDisplay {
   [[nodiscard]] std::string total(const study::PoolView& view) const;
   [[nodiscard]] std::string name_of(std::size_t node) const;
   /// Rows with the same cause on one line: a mistake in one setting stops many.
-  [[nodiscard]] std::vector<std::string> failures() const;
+  enum class Failed { any, planning, running };  ///< when a row did
+  [[nodiscard]] std::vector<std::string> failures(Failed which = Failed::any) const;
 
   const study::Plan& plan_;
   const study::StudyState& progress_;

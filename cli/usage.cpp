@@ -40,6 +40,12 @@ bool parted(const std::vector<std::string>& words, const std::string& left_over)
   return at - words.begin() >= 2 && *(at - 2) == "--set";
 }
 
+std::string why_blank(const std::string& name) {
+  if (name.find_first_not_of(" \t\r\n") != std::string::npos) return {};
+  return fmt::format("is {} (a name is expected; an unset variable of the shell?)",
+                     name.empty() ? "empty" : "blank");
+}
+
 }  // namespace
 
 void check_commands(const CLI::App& app, int argc, char** argv) {
@@ -87,10 +93,12 @@ std::string usage_problem(const CLI::App& app, int argc, char** argv,
                      fmt::join(in_order, " "), why);
 }
 
+CLI::Validator input_name() { return CLI::Validator(why_blank, ""); }
+
 CLI::Validator output_name() {
   return CLI::Validator(
       [](const std::string& name) -> std::string {
-        if (name.empty()) return "is empty (a name is expected; an unset variable of the shell?)";
+        if (const std::string why = why_blank(name); !why.empty()) return why;
         if (name[0] == '~')
           return fmt::format("'{}': '~' is not expanded; write the folder in full", name);
         return {};

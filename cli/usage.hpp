@@ -21,4 +21,7 @@ std::string usage_problem(const CLI::App& app, int argc, char** argv, const CLI:
 /// leaves alone in quotes and after '='.
 CLI::Validator output_name();
 
+/// Refuses names of what should be read that are empty or blank.
+CLI::Validator input_name();
+
 }  // namespace flowslide::cli

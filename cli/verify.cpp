@@ -1,5 +1,6 @@
 #include "cli/case_list.hpp"
 #include "cli/command.hpp"
+#include "cli/usage.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -54,7 +55,7 @@ void add_verify(CLI::App& app, Command& action) {
   auto options = std::make_shared<VerifyOptions>();
   CLI::App* command =
       app.add_subcommand("verify", "Compare the program with known answers; exit 3 if one fails");
-  command->add_option("names", options->names, "groups or cases [all]");
+  command->add_option("names", options->names, "groups or cases [all]")->check(input_name());
   command->add_flag("--json", options->json, "as JSON");
   command->add_flag("--quick", options->quick, "only the cases marked quick, less than a minute");
   command->add_flag("--list", options->list, "only list the cases");

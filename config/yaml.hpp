@@ -1,5 +1,6 @@
 #pragma once
 #include "config/schema.hpp"
+#include "core/nearest.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -77,8 +78,5 @@ T read_settings(const std::optional<YamlNode>& node, std::string_view path) {
   detail::read_fields(node, path, [&](FieldVisitor& v) { Schema<T>::describe(v, settings); });
   return settings;
 }
-
-/// Nearest of `known` to `word` by edit distance, if near enough to be a typing error.
-std::optional<std::string> nearest(std::string_view word, std::span<const std::string> known);
 
 }  // namespace flowslide

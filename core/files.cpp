@@ -1,6 +1,7 @@
 #include "core/files.hpp"
 
 #include "core/check.hpp"
+#include "core/unreadable.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -73,7 +74,12 @@ void remove_leftovers(const fs::path& folder, const std::string& target) {
 Descriptor open_regular(const fs::path& path) {
   // Without O_NONBLOCK the opening of a pipe waits for a writer, for ever if there is none.
   Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  if (file.get() < 0) fail(path, "cannot be read", errno);
+  if (file.get() < 0) {
+    const int reason = errno;
+    const std::string why = reason == ENOENT ? why_unreadable(path) : "";
+    if (!why.empty()) throw FileError(fmt::format("'{}': {}", path.string(), why));
+    fail(path, "cannot be read", reason);
+  }
   struct stat about {};
   if (::fstat(file.get(), &about) != 0) fail(path, "cannot be read", errno);
   if (!S_ISREG(about.st_mode))

@@ -1,9 +1,13 @@
 #include "core/unreadable.hpp"
 
+#include "core/nearest.hpp"
+
 #include <cerrno>
 #include <cstring>
+#include <optional>
 #include <system_error>
 #include <unistd.h>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -23,6 +27,20 @@ fs::path first_missing(const fs::path& path) {
   return {};
 }
 
+/// The name in the folder of `path` that its own may have been meant for, told as a question.
+std::string near_name(const fs::path& path) {
+  // More names than anybody looks through take longer than the message is worth.
+  constexpr std::size_t kMostNames = 10000;
+  const fs::path folder = path.parent_path().empty() ? "." : path.parent_path();
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end;
+       !error && it != end && names.size() < kMostNames; it.increment(error))
+    names.push_back(it->path().filename().string());
+  const auto near = nearest(path.filename().string(), names);
+  return near ? fmt::format(" Did you mean '{}'?", *near) : "";
+}
+
 std::string why_missing(const fs::path& path) {
   const std::string text = path.string();
   if (text.starts_with("~") || text.find("/~") != std::string::npos)
@@ -33,8 +51,10 @@ std::string why_missing(const fs::path& path) {
                        fs::read_symlink(path, error).string());
   const fs::path folder = first_missing(path);
   if (!folder.empty())
-    return fmt::format("no such file (the folder {} does not exist)", folder.string());
-  return "no such file";
+    return fmt::format("no such file (the folder {} does not exist).{}", folder.string(),
+                       near_name(folder));
+  const std::string near = near_name(path);
+  return near.empty() ? "no such file" : "no such file." + near;
 }
 
 }  // namespace

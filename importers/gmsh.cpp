@@ -166,6 +166,7 @@ void add_curves(const GmshFile& file, const std::map<std::int64_t, std::int32_t>
 SectionMesh read_gmsh(const std::filesystem::path& path, double length) {
   const GmshFile file = read_gmsh_file(path);
   SectionMesh section;
+  section.notes = file.notes;
   const auto index = add_nodes(file, length, section.mesh);
   add_quads(file, index, section);
   add_curves(file, index, section);

@@ -1,92 +1,14 @@
 #include "importers/gmsh_sections.hpp"
 
-#include "core/odd_characters.hpp"
-#include "core/units.hpp"
-#include "importers/text_lines.hpp"
+#include "importers/gmsh_lines.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <limits>
 
 #include <fmt/format.h>
 
 namespace flowslide {
 namespace {
-
-/// Lines of a .msh file as numbers, with their place for messages.
-class Lines {
- public:
-  explicit Lines(const std::filesystem::path& path) : reader_(path) {}
-
-  bool next() {
-    while (reader_.next(line_)) {
-      const auto first = line_.find_first_not_of(" \t");
-      if (first == std::string_view::npos) continue;
-      line_.remove_prefix(first);
-      while (line_.back() == ' ' || line_.back() == '\t') line_.remove_suffix(1);
-      return true;
-    }
-    return false;
-  }
-  [[nodiscard]] std::string_view text() const { return line_; }
-  [[nodiscard]] const std::string& name() const { return reader_.name(); }
-  [[nodiscard]] std::int64_t number() const { return reader_.line_number(); }
-
-  /// Numbers of the next line; at least `least` of them.
-  const std::vector<double>& numbers(std::size_t least, std::string_view what) {
-    if (!next()) fail(fmt::format("the file ends where {} should stand (it was cut)", what));
-    if (split(line_, what).size() < least)
-      fail(fmt::format("{} numbers, but {} has at least {}", values_.size(), what, least));
-    return values_;
-  }
-  /// Numbers of a text with blanks between them.
-  const std::vector<double>& split(std::string_view text, std::string_view what) {
-    values_.clear();
-    std::string_view rest = text;
-    while (!rest.empty()) {
-      double value = 0.0;
-      std::size_t length = 0;
-      if (!parse_number(rest, value, length) || !std::isfinite(value)) fail(no_numbers(what));
-      values_.push_back(value);
-      rest.remove_prefix(length);
-      const auto first = rest.find_first_not_of(" \t");
-      if (first == 0) fail(no_numbers(what));
-      rest.remove_prefix(first == std::string_view::npos ? rest.size() : first);
-    }
-    return values_;
-  }
-
-  std::int64_t whole(double value, std::string_view what) const {
-    if (value != std::floor(value) || std::abs(value) > kLargestExactInteger)
-      fail(fmt::format("{} is no whole number ({})", value, what));
-    return static_cast<std::int64_t>(value);
-  }
-  /// A number of gmsh's own, which are 32 bits wide: a larger one must not become a smaller.
-  int tag(double value, std::string_view what) const {
-    const std::int64_t n = whole(value, what);
-    if (std::abs(n) > std::numeric_limits<int>::max())
-      fail(fmt::format("{} {} is larger than gmsh writes", what, n));
-    return static_cast<int>(n);
-  }
-  std::size_t count(double value, std::string_view what) const {
-    const std::int64_t n = whole(value, what);
-    if (n < 0 || n > 100'000'000) fail(fmt::format("{} {} (0 to 100 million)", n, what));
-    return static_cast<std::size_t>(n);
-  }
-  [[noreturn]] void fail(const std::string& problem) const {
-    throw InputError(fmt::format("{}:{}: {}", name(), number(), problem));
-  }
-
- private:
-  [[nodiscard]] std::string no_numbers(std::string_view what) const {
-    const std::string odd = odd_characters(line_);
-    return fmt::format("'{}' {}", line_.substr(0, 60),
-                       odd.empty() ? fmt::format("is not {}", what) : odd);
-  }
-
-  LineReader reader_;
-  std::string_view line_;
-  std::vector<double> values_;
-};
 
 std::size_t nodes_of_type(int type) {
   switch (type) {
@@ -103,8 +25,8 @@ std::size_t nodes_of_type(int type) {
   }
 }
 
-void read_names(Lines& in, GmshFile& file) {
-  const std::size_t n = in.count(in.numbers(1, "the number of physical names")[0], "names");
+void read_names(GmshLines& in, GmshFile& file) {
+  const std::size_t n = in.count(in.exactly(1, "the number of physical names")[0], "names");
   for (std::size_t i = 0; i < n; ++i) {
     if (!in.next()) in.fail("the file ends inside $PhysicalNames (it was cut)");
     const std::string line(in.text());
@@ -128,9 +50,9 @@ void read_names(Lines& in, GmshFile& file) {
 /// Physical groups of each entity, 4.1 only.
 using Entities = std::map<std::pair<int, std::int64_t>, std::vector<int>>;
 
-Entities read_entities(Lines& in) {
+Entities read_entities(GmshLines& in) {
   Entities physical;
-  const std::vector<double> head = in.numbers(4, "numbers of points, curves, surfaces, volumes");
+  const std::vector<double> head = in.exactly(4, "numbers of points, curves, surfaces, volumes");
   for (int dimension = 0; dimension < 4; ++dimension) {
     const std::size_t n = in.count(head[static_cast<std::size_t>(dimension)], "entities");
     // Points have one corner of their box, the others two; then the physical groups.
@@ -138,7 +60,12 @@ Entities read_entities(Lines& in) {
     for (std::size_t i = 0; i < n; ++i) {
       const std::vector<double>& v = in.numbers(at + 1, "an entity");
       const std::size_t groups = in.count(v[at], "physical groups");
-      if (v.size() < at + 1 + groups) in.fail("fewer physical groups than the line says");
+      const std::size_t end = at + 1 + groups;
+      if (v.size() < end) in.fail("fewer physical groups than the line says");
+      // Then, of all but points, what it is bounded by; some writers leave this out.
+      const bool bounded = dimension > 0 && v.size() > end;
+      in.expect(bounded ? end + 1 + in.count(v[end], "parts of a boundary") : end,
+                "an entity with these counts");
       if (dimension == 2 && groups > 1)
         in.fail(
             fmt::format("surface {} is in {} physical groups (one material is needed) put it "
@@ -152,43 +79,90 @@ Entities read_entities(Lines& in) {
   return physical;
 }
 
-void read_nodes_2(Lines& in, GmshFile& file) {
-  const std::size_t n = in.count(in.numbers(1, "the number of nodes")[0], "nodes");
+void read_nodes_2(GmshLines& in, GmshFile& file) {
+  const std::size_t n = in.count(in.exactly(1, "the number of nodes")[0], "nodes");
   for (std::size_t i = 0; i < n; ++i) {
-    const std::vector<double>& v = in.numbers(4, "a node: number, x, y, z");
+    const std::vector<double>& v = in.exactly(4, "a node: number, x, y, z,");
     file.nodes.push_back({in.whole(v[0], "node"), v[1], v[2], v[3], in.number()});
   }
 }
 
-void read_nodes_4(Lines& in, GmshFile& file) {
-  const std::vector<double> head = in.numbers(4, "blocks, nodes, smallest and largest number");
-  for (std::size_t b = 0; b < in.count(head[0], "blocks of nodes"); ++b) {
-    const std::vector<double> block = in.numbers(4, "dimension, entity, parametric, nodes");
-    const std::size_t n = in.count(block[3], "nodes");
-    const std::size_t first = file.nodes.size();
-    for (std::size_t i = 0; i < n; ++i)
-      file.nodes.push_back({in.whole(in.numbers(1, "a node number")[0], "node"), 0, 0, 0, 0});
+/// The first line of a section of format 4.1: what its blocks hold together.
+struct Totals {
+  std::size_t blocks, items;
+  double least, most;  ///< numbers of the items
+  std::int64_t line;
+};
+
+Totals read_totals(GmshLines& in, std::string_view what) {
+  const std::vector<double>& head =
+      in.exactly(4, fmt::format("blocks, {}, smallest and largest number,", what));
+  return {in.count(head[0], fmt::format("blocks of {}", what)), in.count(head[1], what), head[2],
+          head[3], in.number()};
+}
+
+/// What the first line says against what came: a file that was cut, edited or put together.
+void check_totals(const Totals& totals, std::string_view what, std::size_t found, double least,
+                  double most, GmshFile& file) {
+  validate(
+      found == totals.items,
+      "{}:{}: {} {}, and the blocks after it have {} (the file was edited, or put together from "
+      "several: which is right is not known) save the mesh anew",
+      file.name, totals.line, totals.items, what, found);
+  if (found > 0 && (least != totals.least || most != totals.most))
+    file.notes.push_back(fmt::format(
+        "{}:{}: the numbers of {} are said to go from {:.15g} to {:.15g}, and go from {:.15g} to "
+        "{:.15g}. Was the file edited?",
+        file.name, totals.line, what, totals.least, totals.most, least, most));
+}
+
+/// Smallest and largest of the numbers that were seen.
+struct Extent {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  void add(double value) {
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+};
+
+void read_nodes_4(GmshLines& in, GmshFile& file) {
+  const Totals totals = read_totals(in, "nodes");
+  Extent tags;
+  const std::size_t before = file.nodes.size();
+  for (std::size_t b = 0; b < totals.blocks; ++b) {
+    const std::vector<double> block = in.exactly(4, "dimension, entity, parametric, nodes");
+    const std::size_t n = in.count(block[3], "nodes"), first = file.nodes.size();
+    // Parametric ones have their coordinates on the entity as well.
+    const std::size_t coordinates =
+        3 + (block[2] != 0.0 ? in.count(block[0], "dimensions of an entity") : 0);
     for (std::size_t i = 0; i < n; ++i) {
-      const std::vector<double>& v = in.numbers(3, "x, y, z of a node");
+      const double tag = in.exactly(1, "a node number")[0];
+      file.nodes.push_back({in.whole(tag, "node"), 0, 0, 0, 0});
+      tags.add(tag);
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::vector<double>& v = in.exactly(coordinates, "x, y, z of a node");
       GmshNode& node = file.nodes[first + i];
       node = {node.tag, v[0], v[1], v[2], in.number()};
     }
   }
+  check_totals(totals, "nodes", file.nodes.size() - before, tags.least, tags.most, file);
 }
 
-void add_element(Lines& in, GmshFile& file, const std::vector<double>& v, std::size_t first,
+void add_element(GmshLines& in, GmshFile& file, const std::vector<double>& v, std::size_t first,
                  int type, int physical) {
   GmshElement e{in.whole(v[0], "element"), type, physical, {}, in.number()};
   const std::size_t n = nodes_of_type(type);
-  if (v.size() < first + n)
+  // Other types are refused with what to do when all are read.
+  if (v.size() < first + n || (n > 0 && v.size() > first + n))
     in.fail(fmt::format("element {} has {} nodes, its type {} has {}", e.tag, v.size() - first,
                         type, n));
   for (std::size_t k = 0; k < n; ++k) e.nodes.push_back(in.whole(v[first + k], "node"));
   file.elements.push_back(std::move(e));
 }
 
-void read_elements_2(Lines& in, GmshFile& file) {
-  const std::size_t n = in.count(in.numbers(1, "the number of elements")[0], "elements");
+void read_elements_2(GmshLines& in, GmshFile& file) {
+  const std::size_t n = in.count(in.exactly(1, "the number of elements")[0], "elements");
   for (std::size_t i = 0; i < n; ++i) {
     const std::vector<double> v = in.numbers(3, "an element: number, type, number of tags, ...");
     const std::size_t tags = in.count(v[2], "tags");
@@ -198,24 +172,30 @@ void read_elements_2(Lines& in, GmshFile& file) {
   }
 }
 
-void read_elements_4(Lines& in, GmshFile& file, const Entities& entities) {
-  const std::vector<double> head = in.numbers(4, "blocks, elements, smallest and largest number");
-  for (std::size_t b = 0; b < in.count(head[0], "blocks of elements"); ++b) {
-    const std::vector<double> block = in.numbers(4, "dimension, entity, type, elements");
+void read_elements_4(GmshLines& in, GmshFile& file, const Entities& entities) {
+  const Totals totals = read_totals(in, "elements");
+  Extent tags;
+  std::size_t found = 0;
+  for (std::size_t b = 0; b < totals.blocks; ++b) {
+    const std::vector<double> block = in.exactly(4, "dimension, entity, type, elements");
     const auto group = entities.find({in.tag(block[0], "dimension"), in.whole(block[1], "entity")});
     const int type = in.tag(block[2], "type");
     const std::vector<int> groups =
         group == entities.end() || group->second.empty() ? std::vector<int>{0} : group->second;
-    for (std::size_t i = 0; i < in.count(block[3], "elements"); ++i) {
+    const std::size_t n = in.count(block[3], "elements");
+    for (std::size_t i = 0; i < n; ++i) {
       const std::vector<double>& v = in.numbers(1, "an element: number and nodes");
+      tags.add(v[0]);
       // Once for each group, as format 2.2 has it.
       for (const int physical : groups) add_element(in, file, v, 1, type, physical);
     }
+    found += n;
   }
+  check_totals(totals, "elements", found, tags.least, tags.most, file);
 }
 
-int read_format(Lines& in) {
-  const std::vector<double>& v = in.numbers(3, "version, file type, data size");
+int read_format(GmshLines& in) {
+  const std::vector<double>& v = in.exactly(3, "version, file type, data size,");
   if (v[1] != 0.0) in.fail("a binary .msh file (only text is read). Save it with Mesh.Binary = 0");
   if (v[0] == 2.2 || v[0] == 2.1 || v[0] == 2.0) return 2;
   if (v[0] == 4.1) return 4;
@@ -226,7 +206,7 @@ int read_format(Lines& in) {
 }
 
 /// Goes to the end of a section; one that was read must end where its counts say.
-void finish_section(Lines& in, const std::string& name, bool was_read) {
+void finish_section(GmshLines& in, const std::string& name, bool was_read) {
   const std::string end = "$End" + name;
   do {
     if (!in.next()) in.fail("the file ends inside $" + name + " (it was cut)");
@@ -239,7 +219,7 @@ void finish_section(Lines& in, const std::string& name, bool was_read) {
 }  // namespace
 
 GmshFile read_gmsh_file(const std::filesystem::path& path) {
-  Lines in(path);
+  GmshLines in(path);
   GmshFile file;
   file.name = in.name();
   int version = 0;

@@ -30,6 +30,7 @@ struct GmshFile {
   std::vector<GmshNode> nodes;
   std::vector<GmshElement> elements;
   std::map<std::pair<int, int>, std::string> physical_names;  ///< (dimension, tag)
+  std::vector<std::string> notes;                             ///< what is odd, with file:line
 };
 
 /// Throws InputError with file:line, FileError.

@@ -3,6 +3,7 @@
 #include "core/elementary.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <tuple>
 #include <utility>
@@ -28,6 +29,7 @@ struct OuterSide {
 struct Contact {
   const char* how = nullptr;  ///< none
   Vec2 at{};
+  bool twice = false;  ///< is there soil on soil, and not only a seam between two parts of it?
 };
 
 double distance(const Vec2& a, const Vec2& b) { return hypot(b[0] - a[0], b[1] - a[1]); }
@@ -97,7 +99,12 @@ Contact crossing(const OuterSide& p, const OuterSide& q) {
   const double of_c = cross(p.a, p.b, q.a), of_d = cross(p.a, p.b, q.b);
   if (!(of_a * of_b < 0.0 && of_c * of_d < 0.0)) return {};
   const double t = of_a / (of_a - of_b);
-  return {"crosses", {p.a[0] + t * (p.b[0] - p.a[0]), p.a[1] + t * (p.b[1] - p.a[1])}};
+  // How far the ends lie beyond each other's line: digits that a file lacks make seams cross.
+  const double p_beyond = std::min(std::abs(of_a), std::abs(of_b)) / distance(q.a, q.b);
+  const double q_beyond = std::min(std::abs(of_c), std::abs(of_d)) / distance(p.a, p.b);
+  return {"crosses",
+          {p.a[0] + t * (p.b[0] - p.a[0]), p.a[1] + t * (p.b[1] - p.a[1])},
+          std::min(p_beyond, q_beyond) > std::min(p.tolerance, q.tolerance)};
 }
 
 Contact contact(const OuterSide& p, const OuterSide& q) {
@@ -121,7 +128,10 @@ Contact contact(const OuterSide& p, const OuterSide& q) {
   const bool p_on_q = lies_on(p, q), q_on_p = lies_on(q, p);
   const OuterSide& shorter = p_on_q ? p : q;
   if (inside == 0) at = {0.5 * (shorter.a[0] + shorter.b[0]), 0.5 * (shorter.a[1] + shorter.b[1])};
-  if (p_on_q || q_on_p || inside > 1) return {"lies along", at};
+  // Both have their soil on the left: on the same side of a common line if they run the same way.
+  const bool same_way =
+      (p.b[0] - p.a[0]) * (q.b[0] - q.a[0]) + (p.b[1] - p.a[1]) * (q.b[1] - q.a[1]) > 0.0;
+  if (p_on_q || q_on_p || inside > 1) return {"lies along", at, same_way};
   return inside > 0 ? Contact{"touches", at} : Contact{};
 }
 
@@ -136,6 +146,49 @@ std::string elements_on_one_side(const QuadMesh& mesh, const std::vector<Side>& 
       mesh.element_tags[found->element], mesh.element_tags[(found + 1)->element],
       mesh.node_tags[found->from], mesh.node_tags[found->to], mesh.nodes[found->from][0],
       mesh.nodes[found->from][1]);
+}
+
+/// A corner of an element: its edges go from the node to `next` and from `before` to the node.
+struct Corner {
+  std::size_t element;
+  Vec2 next, before;  ///< from the node, of unit length
+};
+
+Vec2 direction(const Vec2& a, const Vec2& b) {
+  const double length = distance(a, b);
+  return {(b[0] - a[0]) / length, (b[1] - a[1]) / length};
+}
+
+/// Is there more of `d` between the edges of the corner than digits that a file lacks?
+bool inside(const Vec2& d, const Corner& c) {
+  constexpr double kAngle = 2e-3;
+  return cross({}, c.next, d) > kAngle && cross({}, d, c.before) > kAngle;
+}
+
+bool lie_over(const Corner& a, const Corner& b) {
+  return inside(a.next, b) || inside(a.before, b) || inside(b.next, a) || inside(b.before, a);
+}
+
+/// Elements that share a node and lie over each other there; edges that share it do not cross.
+std::string elements_over_a_node(const QuadMesh& mesh) {
+  std::vector<std::vector<Corner>> around(mesh.num_nodes());
+  for (std::size_t e = 0; e < mesh.num_elements(); ++e)
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto& n = mesh.elements[e];
+      const Vec2& at = mesh.nodes[n[k]];
+      around[n[k]].push_back({e, direction(at, mesh.nodes[n[(k + 1) % 4]]),
+                              direction(at, mesh.nodes[n[(k + 3) % 4]])});
+    }
+  for (std::size_t n = 0; n < around.size(); ++n)
+    for (std::size_t i = 0; i < around[n].size(); ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        if (lie_over(around[n][k], around[n][i]))
+          return fmt::format(
+              "elements {} and {} share node {} and lie over each other at ({:.6g}, {:.6g}) m (their "
+              "soil would count twice)",
+              mesh.element_tags[around[n][k].element], mesh.element_tags[around[n][i].element],
+              mesh.node_tags[n], mesh.nodes[n][0], mesh.nodes[n][1]);
+  return {};
 }
 
 std::string in_words(const QuadMesh& mesh, const OuterSide& s) {
@@ -154,15 +207,16 @@ std::size_t longer_axis(const QuadMesh& mesh) {
   return extent(0) >= extent(1) ? 0 : 1;
 }
 
-}  // namespace
-
-std::string overlap(const QuadMesh& mesh) {
-  const std::vector<Side> sides = sides_by_edge(mesh);
-  if (std::string text = elements_on_one_side(mesh, sides); !text.empty()) return text;
-  const std::size_t axis = longer_axis(mesh), other = 1 - axis;
-  const std::vector<OuterSide> outer = outer_sides(mesh, sides, axis);
+struct Meetings {
   std::size_t count = 0;
   std::string first;
+};
+
+/// Outer edges that meet without being joined; all, or those that have soil on soil.
+Meetings meetings(const QuadMesh& mesh, const std::vector<Side>& sides, bool all) {
+  const std::size_t axis = longer_axis(mesh), other = 1 - axis;
+  const std::vector<OuterSide> outer = outer_sides(mesh, sides, axis);
+  Meetings found;
   for (std::size_t i = 0; i < outer.size(); ++i) {
     const OuterSide& p = outer[i];
     const auto [begin, end] = std::minmax(p.a[other], p.b[other]);
@@ -173,17 +227,40 @@ std::string overlap(const QuadMesh& mesh) {
       if (std::min(q.a[other], q.b[other]) > end + p.tolerance) continue;
       if (std::max(q.a[other], q.b[other]) < begin - p.tolerance) continue;
       const Contact c = contact(p, q);
-      if (c.how == nullptr) continue;
-      if (count++ == 0)
-        first = fmt::format("the one {} {} the one {} at ({:.6g}, {:.6g}) m", in_words(mesh, p),
-                            c.how, in_words(mesh, q), c.at[0], c.at[1]);
+      if (c.how == nullptr || !(all || c.twice)) continue;
+      if (found.count++ == 0)
+        found.first = fmt::format("the one {} {} the one {} at ({:.6g}, {:.6g}) m",
+                                  in_words(mesh, p), c.how, in_words(mesh, q), c.at[0], c.at[1]);
     }
   }
-  if (count == 0) return {};
-  return fmt::format(
-      "{} of outer edges {} without being joined: {} (soil that lies over soil counts twice, and "
-      "no force passes a seam whose sides have nodes of their own)",
-      count == 1 ? "a pair" : fmt::format("{} pairs", count), count == 1 ? "meets" : "meet", first);
+  return found;
+}
+
+std::string told(const Meetings& found) {
+  const bool one = found.count == 1;
+  return fmt::format("{} of outer edges {} without being joined: {}",
+                     one ? "a pair" : fmt::format("{} pairs", found.count), one ? "meets" : "meet",
+                     found.first);
+}
+
+}  // namespace
+
+std::string overlap(const QuadMesh& mesh) {
+  const std::vector<Side> sides = sides_by_edge(mesh);
+  if (std::string text = elements_on_one_side(mesh, sides); !text.empty()) return text;
+  const Meetings found = meetings(mesh, sides, true);
+  if (found.count == 0) return elements_over_a_node(mesh);
+  return told(found) +
+         " (soil that lies over soil counts twice, and no force passes a seam whose sides have nodes "
+         "of their own)";
+}
+
+std::string soil_on_soil(const QuadMesh& mesh) {
+  const std::vector<Side> sides = sides_by_edge(mesh);
+  if (std::string text = elements_on_one_side(mesh, sides); !text.empty()) return text;
+  const Meetings found = meetings(mesh, sides, false);
+  if (found.count == 0) return elements_over_a_node(mesh);
+  return told(found) + " (their soil lies over each other and would count twice)";
 }
 
 }  // namespace flowslide

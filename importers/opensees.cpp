@@ -3,6 +3,7 @@
 #include "core/check.hpp"
 #include "core/units.hpp"
 #include "importers/mesh_faults.hpp"
+#include "importers/mesh_overlap.hpp"
 #include "importers/plausibility.hpp"
 #include "importers/recorder_columns.hpp"
 #include "importers/recorder_rows.hpp"
@@ -56,7 +57,12 @@ void apply_bad_rows(const RecorderScan& scan, BadRows policy, std::vector<std::s
     return;
   }
   std::string text = fmt::format("{}", fmt::join(scan.problems, "\n  "));
-  if (scan.non_finite > 0)
+  if (scan.non_finite > 0 && scan.good_rows == 0)
+    text = fmt::format(
+        "{}: {} values are not finite, from the first row on (the run diverged?) compute it again. "
+        "First positions:\n  {}",
+        scan.file, scan.non_finite, text);
+  else if (scan.non_finite > 0)
     text = fmt::format(
         "{}: {} values are not finite (the run diverged?) set `bad_rows: stop` to use the {} rows "
         "before them. First positions:\n  {}",
@@ -257,9 +263,14 @@ std::function<void(double)> scan_progress(Percent& percent, std::size_t files) {
 
 constexpr std::uintmax_t kSmallFile = 1 << 20;
 
-/// Programs may tie nodes at one place to each other; this one does not know.
+/// Programs may tie nodes at one place, and the sides of a seam, to each other; this one does not
+/// know. Soil that is there twice no program makes one.
 std::vector<std::string> mesh_warnings(const OpenSeesConfig& config, const QuadMesh& mesh) {
-  const std::string problem = unjoined(mesh);
+  const std::string twice = soil_on_soil(mesh);
+  validate(twice.empty(), "{}: {} leave out of the table what is no soil of the section",
+           config.mesh.elements.path.filename().string(), twice);
+  std::string problem = unjoined(mesh);
+  if (problem.empty()) problem = overlap(mesh);
   if (problem.empty()) return {};
   return {fmt::format("{}: {} unless the model ties them.",
                       config.mesh.nodes.path.filename().string(), problem)};

@@ -2,6 +2,7 @@
 
 #include "core/check.hpp"
 #include "core/files.hpp"
+#include "core/unreadable.hpp"
 
 #include <algorithm>
 #include <array>
@@ -63,11 +64,8 @@ constexpr std::size_t kLongestLine = std::size_t{64} << 20;
 void check_is_file(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (status.type() == fs::file_type::not_found) {
-    const bool tilde = path.string().find('~') != std::string::npos;
-    throw FileError(fmt::format("{}: no such file{}", path.string(),
-                                tilde ? " ('~' is not expanded) write the folder in full" : ""));
-  }
+  if (status.type() == fs::file_type::not_found)
+    throw FileError(fmt::format("{}: {}", path.string(), why_unreadable(path)));
   if (status.type() == fs::file_type::none)
     throw FileError(fmt::format("{}: cannot be opened ({})", path.string(), error.message()));
   if (status.type() == fs::file_type::directory)

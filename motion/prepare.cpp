@@ -4,6 +4,8 @@
 #include "motion/foreign.hpp"
 #include "motion/measures.hpp"
 
+#include <utility>
+
 namespace flowslide {
 
 template <>
@@ -87,6 +89,28 @@ void Schema<MotionConfig>::describe(FieldVisitor& v, MotionConfig& c) {
              "peak acceleration to which the result is scaled");
 }
 
+namespace {
+
+/// What can be said of the corners before the motion is there.
+void check_corners(const MotionConfig& config) {
+  const std::optional<double>&low = config.filter->high_pass, &high = config.filter->low_pass;
+  validate(!low || !high || *low < *high,
+           "filter.high_pass: {:g} Hz is not below low_pass, {:g} Hz (nothing would remain) swap "
+           "them",
+           low.value_or(0.0), high.value_or(0.0));
+  if (config.record) return;  // its step is in the file
+  const double dt =
+      config.preset ? preset_config(*config.preset, *config.pga).dt : config.synthetic->dt;
+  for (const auto& [name, corner] : {std::pair("high_pass", low), std::pair("low_pass", high)})
+    validate(
+        !corner || *corner < 0.5 / dt,
+        "filter.{}: {:g} Hz is not below {:g} Hz, the highest frequency in steps of {:g} s. Is "
+        "the unit right?",
+        name, corner.value_or(0.0), 0.5 / dt, dt);
+}
+
+}  // namespace
+
 void check(const MotionConfig& config) {
   const int sources = int{config.record.has_value()} + int{config.preset.has_value()} +
                       int{config.synthetic.has_value()};
@@ -98,6 +122,7 @@ void check(const MotionConfig& config) {
   if (config.preset) preset_config(*config.preset, *config.pga);
   validate(!config.filter || config.filter->high_pass || config.filter->low_pass,
            "filter without high_pass or low_pass (nothing would be filtered)");
+  if (config.filter) check_corners(config);
 }
 
 namespace {

@@ -123,6 +123,17 @@ std::vector<std::string> idle_settings(const SectionConfig& config, const Sectio
         "size_along_x: goes from x = {:g} to {:g} m, and the section from {:g} to {:g} m: one size "
         "holds for all of it. Are numbers and unit right?",
         sizes.front()[0], sizes.back()[0], begin, end));
+  if (!sizes.empty()) {
+    // A size near the others is one that was left standing.
+    constexpr double kNear = 2.0;
+    const auto [least, most] =
+        std::ranges::minmax(sizes, {}, [](const auto& row) { return row[1]; });
+    if (config.size * kNear < least[1] || config.size > kNear * most[1])
+      notes.push_back(fmt::format(
+          "size: {:g} m has no part in the mesh, whose sizes are those of size_along_x, {:g} to {:g} "
+          "m. Change these, or take one of the two settings away.",
+          config.size, least[1], most[1]));
+  }
   for (const auto& [name, material] : config.materials)
     if (std::ranges::none_of(section.materials,
                              [&n = name](const MaterialName& m) { return m.name == n; }))

@@ -1,6 +1,7 @@
 #include "study/plan/plan.hpp"
 
 #include "core/hash.hpp"
+#include "study/plan/check_results.hpp"
 #include "study/plan/perturb.hpp"
 #include "study/plan/rows.hpp"
 #include "study/plan/yaml_read.hpp"
@@ -276,6 +277,7 @@ Plan make_plan(const StudyFile& study, std::span<const StageType> types) {
     const int code = plan.rows.front().code;
     throw Error(code == 0 ? 2 : code, problems_of(plan));
   }
+  check_results(study, plan);
   return plan;
 }
 

@@ -1,3 +1,4 @@
+#include "study/numbers/sobol.hpp"
 #include "study/plan/read_parts.hpp"
 #include "study/plan/yaml_read.hpp"
 
@@ -125,6 +126,11 @@ Sample read_sample(const YamlNode& node) {
     sample.inputs.push_back(read_input(name, input));
   if (sample.inputs.empty())
     throw node.find("inputs")->error("is empty (nothing is sampled). Name an input.");
+  if (sample.method == Sampling::sobol && sample.inputs.size() > kSobolInputs)
+    throw node.find("method")->error(fmt::format(
+        "sobol takes {} inputs at most, and there are {} (its numbers are kept for so "
+        "many). Take 'method: latin_hypercube', which has no such limit, or vary fewer.",
+        kSobolInputs, sample.inputs.size()));
   if (const auto pairs = node.find("correlations")) read_correlations(sample, *pairs);
   return sample;
 }

@@ -148,8 +148,11 @@ void read_analysis(StudyFile& study, const YamlNode& node) {
   allow_keys(node, {"results", "thresholds", "seed"});
   if (const auto results = node.find("results")) {
     study.analysis.results = read_texts(*results);
-    for (std::size_t i = 0; i < results->size(); ++i) (void)results->item(i).scalar();
-    if (results->kind() != YamlNode::Kind::list) (void)results->scalar();
+    const auto take = [&](const YamlNode& name) {
+      study.analysis.places.emplace(name.scalar(), place_of(name));
+    };
+    for (std::size_t i = 0; i < results->size(); ++i) take(results->item(i));
+    if (results->kind() != YamlNode::Kind::list) take(*results);
   }
   if (const auto seed = node.find("seed"))
     study.analysis.seed = read_count(*seed, 0, static_cast<std::size_t>(1) << 62u);
@@ -161,6 +164,8 @@ void read_analysis(StudyFile& study, const YamlNode& node) {
       const YamlNode pair = pairs->item(i);
       if (pair.size() != 2) throw pair.error("is no pair of columns. Write [x, y].");
       study.analysis.thresholds.emplace_back(pair.item(0).scalar(), pair.item(1).scalar());
+      for (const std::size_t k : {0, 1})
+        study.analysis.places.emplace(pair.item(k).scalar(), place_of(pair.item(k)));
     }
 }
 

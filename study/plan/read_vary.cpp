@@ -1,12 +1,9 @@
 #include "core/elementary.hpp"
-#include "core/files.hpp"
-#include "core/odd_characters.hpp"
 #include "study/plan/read_parts.hpp"
 #include "study/plan/yaml_read.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include <fmt/format.h>
 
@@ -94,7 +91,7 @@ void read_values(Variable& variable, const YamlNode& node) {
     throw labels->error(
         fmt::format("{} labels for {} values. Give one for each.", names.size(), texts.size()));
   for (std::size_t i = 0; i < texts.size(); ++i) {
-    Choice& choice = variable.choices.emplace_back(Choice{names[i], {}});
+    Choice& choice = variable.choices.emplace_back(Choice{names[i], {}, {}});
     for (const std::string& path : variable.settings) choice.set.emplace_back(path, texts[i]);
   }
 }
@@ -128,100 +125,6 @@ void read_zip(Variable& variable, const YamlNode& node) {
     for (std::size_t i = 0; i < names.size(); ++i) variable.choices[i].label = names[i];
   }
 }
-
-std::string trimmed(std::string text) {
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\r')) text.pop_back();
-  text.erase(0, std::min(text.find_first_not_of(' '), text.size()));
-  return text;
-}
-
-using Lines = std::vector<std::vector<std::string>>;
-
-/// Comma-separated, one header line; lines that begin with '#' are comments.
-Lines read_csv(const YamlNode& node) {
-  const std::filesystem::path path = node.folder() / node.scalar();
-  std::string text;
-  try {
-    text = flowslide::read_file(path, 1u << 20);
-  } catch (const FileError& e) {
-    throw FileError(node.error(e.what()).what());
-  }
-  if (text.find('\0') != std::string::npos)
-    throw node.error(
-        fmt::format("{}: holds NUL bytes (a binary file or UTF-16 text) save it as CSV in UTF-8.",
-                    path.string()));
-  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-  Lines lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) {
-    line = trimmed(line);
-    if (line.empty() || line[0] == '#') continue;
-    std::vector<std::string>& cells = lines.emplace_back();
-    std::istringstream parts(line);
-    for (std::string cell; std::getline(parts, cell, ',');) cells.push_back(trimmed(cell));
-    const std::string odd = line.find(';') != std::string::npos
-                                ? "has semicolons (commas part the cells) write ',' between cells "
-                                  "and '.' in numbers"
-                                : odd_characters(line);
-    if (cells.size() != lines.front().size())
-      throw node.error(fmt::format("{}: the line '{}' has {} cells, the header {}. {}.",
-                                   path.string(), line, cells.size(), lines.front().size(),
-                                   odd.empty() ? "Mend it" : "It " + odd));
-    // The first cell is a name, and names may have what numbers have not.
-    for (std::size_t i = 1; i < cells.size() && lines.size() > 1; ++i)
-      if (const std::string inside = odd_characters(cells[i]); !inside.empty())
-        throw node.error(fmt::format("{}: '{}' {}.", path.string(), cells[i], inside));
-  }
-  if (lines.size() < 2) throw node.error("holds no row (a header and a row are expected).");
-  return lines;
-}
-
-void read_table(Variable& variable, const YamlNode& node) {
-  allow_keys(node, {"table", "columns", "rows"});
-  const YamlNode file = *node.find("table");
-  const Lines lines = read_csv(file);
-  const std::vector<std::string>& header = lines.front();
-  std::vector<std::string> wanted;
-  if (const auto rows = node.find("rows")) wanted = read_texts(*rows);
-  for (std::size_t i = 1; i < lines.size(); ++i)
-    if (wanted.empty() || std::find(wanted.begin(), wanted.end(), lines[i][0]) != wanted.end())
-      variable.choices.push_back({lines[i][0], {}});
-  for (const std::string& name : wanted)
-    if (std::none_of(variable.choices.begin(), variable.choices.end(),
-                     [&](const Choice& c) { return c.label == name; }))
-      throw node.find("rows")->error(
-          fmt::format("'{}' is no row of {}. Take its first column.", name, file.scalar()));
-  const YamlNode columns = need(node, "columns", "which column gives which setting?");
-  for (const auto& [column, paths] : columns.entries()) {
-    const auto at = std::find(header.begin(), header.end(), column);
-    if (at == header.end())
-      throw paths.error(fmt::format("{} has no column '{}'. It has: {}.", file.scalar(), column,
-                                    fmt::join(header, ", ")));
-    if (std::count(header.begin(), header.end(), column) > 1)
-      throw paths.error(fmt::format("{} has several columns '{}'. Give each a name of its own.",
-                                    file.scalar(), column));
-    const auto cell = static_cast<std::size_t>(at - header.begin());
-    for (std::size_t i = 1; i < lines.size(); ++i)
-      if (const std::string& text = lines[i][cell]; text.empty() || text == "~" || text == "null")
-        throw paths.error(
-            fmt::format("{}, row '{}': column '{}' is empty (the setting would fall back to its "
-                        "default). Write a value.",
-                        file.scalar(), lines[i][0], column));
-    for (const std::string& path : read_settings_paths(paths)) {
-      variable.settings.push_back(path);
-      std::size_t choice = 0;
-      for (std::size_t i = 1; i < lines.size(); ++i)
-        if (choice < variable.choices.size() && variable.choices[choice].label == lines[i][0])
-          variable.choices[choice++].set.emplace_back(path, lines[i][cell]);
-    }
-  }
-  if (variable.settings.empty())
-    throw columns.error("is empty (no column would set anything). Name a setting.");
-}
-
-}  // namespace
-
-namespace {
 
 /// Are two labels one text, or one number in one unit?
 bool same(const std::string& a, const std::string& b) {

@@ -9,9 +9,9 @@ constexpr std::size_t kMostRows = 100000;
 
 void add(Draft& row, const std::string& name, const std::string& place, const Choice& choice) {
   row.values.emplace_back(name, choice.label);
-  for (const auto& entry : choice.set) {
-    row.set.push_back(entry);
-    row.places.push_back(place);
+  for (std::size_t i = 0; i < choice.set.size(); ++i) {
+    row.set.push_back(choice.set[i]);
+    row.places.push_back(choice.places.empty() ? place : choice.places[i]);
   }
 }
 
@@ -34,7 +34,7 @@ std::vector<Draft> sampled(const std::vector<Draft>& rows, const Sample& sample)
         const SampledInput& input = sample.inputs[i];
         const std::string text =
             to_text(Amount{quantile(input.distribution, point[i]), input.unit});
-        Choice choice{text, {}};
+        Choice choice{text, {}, {}};
         for (const std::string& path : input.settings) choice.set.emplace_back(path, text);
         add(next, input.name, input.place, choice);
       }

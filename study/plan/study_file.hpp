@@ -23,6 +23,8 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 struct Choice {
   std::string label;
   Settings set;
+  std::vector<std::string>
+      places;  ///< of each of `set` in a table; else empty, and as the variable's
 };
 
 struct Variable {
@@ -92,6 +94,7 @@ struct Analysis {
   std::vector<std::string> results;  ///< columns; empty: those that are there of the usual ones
   std::vector<std::pair<std::string, std::string>> thresholds;  ///< (x, y) columns
   std::uint64_t seed = 1;                                       ///< of the resampling
+  std::map<std::string, std::string> places;                    ///< where each column was named
 };
 
 struct StudyFile {

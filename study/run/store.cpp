@@ -139,6 +139,12 @@ void write_plan(const fs::path& folder, const Plan& plan) {
 }
 
 Plan read_plan(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder, error))
+    throw InputError(fmt::format(
+        "{}: no folder of a study (there is no such folder). Name the one that 'flowslide study run' "
+        "has made.",
+        folder.string()));
   const SealedJson file = read_sealed(folder / kPlanFile);
   if (!file.json)
     throw InputError(fmt::format(

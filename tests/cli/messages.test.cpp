@@ -27,7 +27,21 @@ TEST_CASE("what a command line has wrong is named with what may be meant", "[cli
       {"run x.yaml --out '~/x'", "'~' is not expanded"},
       {"point x.yaml --csv='~/x'", "'~' is not expanded"},
       {"convert x.h5 ''", "is empty"},
-      {"docs '~'", "'~' is not expanded"}};
+      {"docs '~'", "'~' is not expanded"},
+      {"motion x.csv --pga 0.3", "--pga: '0.3' has no unit"},
+      {"motion x.csv --dt 0.01g", "--dt: "},
+      {"run ''", "file: is empty"},
+      {"check ' '", "file: is blank"},
+      {"motion ''", "files: is empty"},
+      {"inspect ''", "path: is empty"},
+      {"bench ''", "names: is empty"},
+      {"run x.yaml --out ' '", "--out: is blank"},
+      {"study run ''", "file: is empty"},
+      {"study part '' 0", "file: is empty"},
+      {"study status ''", "folder: is empty"},
+      {"study table ' '", "folder: is blank"},
+      {"study report ''", "folder: is empty"},
+      {"study clean ''", "folder: is empty"}};
   for (const auto& [arguments, text] : cases) {
     CAPTURE(arguments);
     const Outcome o = call(scratch, arguments);
@@ -89,6 +103,15 @@ TEST_CASE("a missing recorder is named with its line and its folder", "[cli]") {
                Contains("w.yaml:10:") && Contains("shake.with.gravity.stress") && Contains(reason));
   }
   CHECK(with("stress.out").code == 0);
+  // Where it was looked for, as which of two folders counts is not the same for --set.
+  const std::string here = scratch.path().string();
+  CHECK_THAT(with("strss.out").err,
+             Contains("Did you mean 'stress.out'?") &&
+                 Contains("looked for in " + here + ": names in w.yaml are relative"));
+  CHECK_THAT(with("'data/../strss.out'").err, !Contains("data"));
+  CHECK(with("stress.out").code == 0);
+  CHECK_THAT(call(scratch, "check w.yaml --set stages.shake.with.gravity.stress=x.out").err,
+             Contains("looked for in " + here + ": names in --set are relative"));
 }
 
 TEST_CASE("warnings of an import are on the terminal, in the result, and told again", "[cli]") {

@@ -203,3 +203,49 @@ TEST_CASE("a stage whose workflow was edited says so and leaves nothing behind",
   CHECK(o.code == 0);
   CHECK(o.out == "changed\n");
 }
+
+TEST_CASE("what a study would run fits the terminal", "[cli]") {
+  const Scratch scratch;
+  write_study(scratch, ", {rule: k0, k0: 0.5}",
+              ", a rule with a label of more words than a line has");
+  for (const std::size_t columns : {60U, 80U}) {
+    CAPTURE(columns);
+    std::istringstream lines(on_terminal(scratch, "study run s.yaml --dry-run --jobs 2", columns));
+    std::size_t longest = 0;
+    for (std::string line; std::getline(lines, line);)
+      longest = std::max(longest, line.substr(0, line.find('\r')).size());
+    CHECK(longest <= columns);
+    CHECK(longest > columns / 2);
+  }
+}
+
+TEST_CASE("a row that cannot run did not fail before, and what is not there is no study", "[cli]") {
+  const Scratch scratch;
+  write_study(scratch, ", {rule: none}", ", none");
+  const Outcome o = call(scratch, "study run s.yaml --dry-run");
+  CHECK(o.code == 0);
+  CHECK_THAT(o.err, Contains("cannot run: row 3 (rule none)") && !Contains("failed before"));
+  for (const char* command : {"study status gone", "report gone"})
+    CHECK_THAT(call(scratch, command).err, Contains("gone") && Contains("there is no such folder"));
+}
+
+TEST_CASE("a result that no stage gives is refused before anything runs", "[cli]") {
+  const Scratch scratch;
+  write_study(scratch);
+  const std::string study = read_text_file(scratch / "s.yaml");
+  const auto dry = [&](const std::string& analysis) {
+    scratch.write("s.yaml", study + "  analysis: {" + analysis + "}\n");
+    return call(scratch, "study run s.yaml --dry-run");
+  };
+  CHECK(dry("results: [fem_frames]").code == 0);  // control
+  const Outcome o = dry("results: [fem_frames, fem_frame]");
+  CHECK(o.code == 2);
+  CHECK_THAT(o.err, Contains("s.yaml:10:36: analysis.results: no stage of the study gives a number "
+                             "'fem_frame'") &&
+                        Contains("Did you mean 'fem_frames'?"));
+  CHECK_THAT(dry("results: runout_m").err, Contains("They give"));
+  CHECK_THAT(dry("results: [rule]").err, Contains("is an input of the study and no result"));
+  CHECK_THAT(dry("thresholds: [[fem_nodes, fem_element]]").err,
+             Contains("analysis.thresholds") && Contains("'fem_elements'?"));
+  CHECK_FALSE(std::filesystem::exists(scratch / "runs"));
+}

@@ -16,7 +16,11 @@ TEST_CASE("Why a file cannot be read is said by what is there", "[core]") {
   scratch.write("here.txt", "1");
   CHECK(why_unreadable(scratch / "here.txt").empty());  // control
   CHECK(why_unreadable(scratch / "none.txt") == "no such file");
+  CHECK(why_unreadable(scratch / "heer.txt") == "no such file. Did you mean 'here.txt'?");
   CHECK_THAT(why_unreadable(scratch / "a/b/none.txt"), Contains("/a does not exist"));
+  fs::create_directory(scratch / "records");
+  CHECK_THAT(why_unreadable(scratch / "record/none.txt"),
+             Contains("/record does not exist). Did you mean 'records'?"));
   CHECK_THAT(why_unreadable("~/none.txt"), Contains("'~' is not expanded"));
   CHECK_THAT(why_unreadable(scratch.path()), Contains("is a folder"));
   CHECK_THAT(why_unreadable("/dev/zero"), Contains("no regular file"));

@@ -241,3 +241,47 @@ TEST_CASE("materials of imported meshes can be named") {
   config.length = "furlong";
   CHECK_THROWS_AS(import_mesh(config), InputError);
 }
+
+TEST_CASE("numbers that a .msh file has too many are refused with their line") {
+  const auto changed = [](std::string text, const std::string& line, const std::string& instead) {
+    const std::size_t at = text.find("\n" + line + "\n");
+    REQUIRE(at != std::string::npos);
+    return read(text.replace(at + 1, line.size(), instead));
+  };
+  using Case = std::array<std::string, 4>;
+  for (const auto& [format, line, instead, message] : std::vector<Case>{
+           {kFormat2, "2.2 0 8", "2.2 0 8 1", "dam.msh:2: 4 numbers"},
+           {kFormat2, "7", "7 7", "dam.msh:11: 2 numbers"},
+           {kFormat2, "2 1 0 0", "2 1 0 0 0", "dam.msh:13: 5 numbers, but a node"},
+           {kFormat2, "10 3 2 168 1 1 2 5 4", "10 3 2 168 1 1 2 5 4 6", "element 10 has 5 nodes"},
+           {kFormat2, "10 3 2 168 1 1 2 5 4", "10 3 1 168 1 1 2 5 4", "element 10 has 5 nodes"},
+           {kFormat4, "2 1 0 0 2 1 0 1 170 4 1 2 3 4", "2 1 0 0 2 1 0 1 170 4 1 2 3 4 5",
+            "dam.msh:16: 15 numbers"},
+           {kFormat4, "2 7 1 9", "2 7 1 9 0", "dam.msh:19: 5 numbers"},
+           {kFormat4, "2 7 1 9", "2 8 1 9", "dam.msh:19: 8 nodes, and the blocks after it have 7"},
+           {kFormat4, "2 0 0", "2 0 0 0.5", "dam.msh:32: 4 numbers"},
+           {kFormat4, "4 5 2 11", "4 6 2 11",
+            "dam.msh:38: 6 elements, and the blocks after it have 5"}}) {
+    CAPTURE(line, instead);
+    CHECK_THROWS_WITH(changed(format, line, instead), Contains(message));
+  }
+  // What a writer may leave out or put in, and a range that is only told.
+  CHECK(changed(kFormat4, "2 1 0 0 2 1 0 1 170 4 1 2 3 4", "2 1 0 0 2 1 0 1 170").notes.size() ==
+        1);
+  const SectionMesh odd = changed(kFormat4, "2 7 1 9", "2 7 1 10");
+  REQUIRE(odd.notes.size() == 2);
+  CHECK_THAT(odd.notes[0],
+             Contains("dam.msh:19: the numbers of nodes are said to go from 1 to 10"));
+  CHECK(changed(kFormat4, "2 1 0 6", "2 1 0 6").notes.size() == 1);  // control
+}
+
+TEST_CASE("parametric coordinates of format 4.1 are passed over") {
+  std::string text = kFormat4;
+  const std::string plain = "2 1 0 6\n1\n2\n3\n4\n5\n6\n0 0 0\n1 0 0\n2 0 0\n0 1 0\n1 1 0\n2 1 0\n";
+  REQUIRE(text.find(plain) != std::string::npos);
+  text.replace(text.find(plain), plain.size(),
+               "2 1 1 6\n1\n2\n3\n4\n5\n6\n0 0 0 8 9\n1 0 0 8 9\n2 0 0 8 9\n0 1 0 8 9\n1 1 0 8 9\n"
+               "2 1 0 8 9\n");
+  const SectionMesh mesh = read(text);
+  CHECK(mesh.mesh.nodes == read(kFormat4).mesh.nodes);
+}

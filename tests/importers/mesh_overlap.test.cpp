@@ -125,3 +125,27 @@ TEST_CASE("sections that only look tight do not lie over themselves") {
               .empty());
   }
 }
+
+TEST_CASE("of parts that a model may tie to each other only soil on soil is told") {
+  // A seam whose sides have other nodes, as it is and with digits that a file left out.
+  for (const double y : {1.0, 1.0002, 0.9998}) {
+    CHECK_FALSE(overlap(on_ground({1, y})).empty());
+    CHECK(soil_on_soil(on_ground({1, y})).empty());
+  }
+  // Well within the ground, where no edges cross, as they share the nodes at their ends.
+  for (const std::string& text : {overlap(on_ground({1, 0.9})), soil_on_soil(on_ground({1, 0.9}))})
+    CHECK_THAT(text,
+               Contains("elements 10 and 30 share node 3 and lie over each other at (2, 1) m"));
+  // Two blocks one upon the other with nodes of their own, and one lying on the other.
+  const auto blocks = [](double y) {
+    return mesh_of({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, y}, {1, y}, {1, y + 1}, {0, y + 1}},
+                   {{1, 2, 3, 4}, {5, 6, 7, 8}});
+  };
+  CHECK(soil_on_soil(blocks(1)).empty());
+  CHECK_THAT(overlap(blocks(1)), Contains("lies along"));
+  CHECK_THAT(soil_on_soil(blocks(0)), Contains("4 pairs") && Contains("lies along"));
+  CHECK_FALSE(soil_on_soil(blocks(0.5)).empty());
+  CHECK_THAT(soil_on_soil(mesh_of({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {1.2, 2}, {-0.2, 2}},
+                                  {{1, 2, 3, 4}, {1, 2, 5, 6}})),
+             Contains("elements 10 and 20 lie on the same side"));
+}

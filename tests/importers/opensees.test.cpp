@@ -244,6 +244,13 @@ TEST_CASE("a run that diverged is refused, or cut before the first bad row", "[i
   CHECK(model.run_import().num_frames == 3);
   model.folder.write("velocity.out", "0.25 nan\n");
   CHECK_THROWS_AS(model.run_import(), InputError);
+  // Where no row is left there is nothing to stop at.
+  std::string first = text;
+  first.replace(first.find(' '), first.find(' ', first.find(' ') + 1) - first.find(' '), " nan");
+  model.folder.write("velocity.out", first);
+  model.config.bad_rows = BadRows::error;
+  CHECK_THROWS_WITH(model.run_import(),
+                    Contains("from the first row on") && !Contains("bad_rows: stop"));
 }
 
 TEST_CASE("the gravity row is one index for all files", "[importers]") {

@@ -120,3 +120,22 @@ TEST_CASE("settings of a motion that contradict are refused", "[motion]") {
   CHECK_THAT(problem("record: a.at2\npga: 0.3\n"), Contains("no unit"));
   CHECK_THAT(problem("synthetic: {tm: 0.4 s, d5_95: 8 s}\n"), Contains("pga"));
 }
+
+TEST_CASE("corners that leave nothing are refused before a motion is made", "[motion]") {
+  const DataFolder folder;
+  const auto refusal = [&](const std::string& filter) {
+    const MotionConfig config =
+        read_config(folder, "preset: tabas-dayhook\npga: 0.3 g\nfilter: " + filter + "\n");
+    try {
+      check(config);
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  CHECK(refusal("{high_pass: 0.1 Hz, low_pass: 25 Hz}").empty());
+  CHECK_THAT(refusal("{high_pass: 25 Hz, low_pass: 0.1 Hz}"),
+             Contains("filter.high_pass: 25 Hz is not below low_pass, 0.1 Hz"));
+  CHECK_THAT(refusal("{low_pass: 25 kHz}"),
+             Contains("filter.low_pass: 25000 Hz is not below 50 Hz"));
+}

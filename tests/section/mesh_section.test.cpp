@@ -126,6 +126,9 @@ blocks:
   const auto beyond = notes_with("[[400 m, 4 m], [900 m, 1 m]]", "{sand: {tag: 1}}");
   REQUIRE(beyond.size() == 1);
   CHECK_THAT(beyond[0], Contains("x = 400 to 900 m") && Contains("from 0 to 40 m"));
+  const auto finer = notes_with("[[0 m, 0.2 m], [40 m, 0.3 m]]", "{sand: {tag: 1}}");
+  REQUIRE(finer.size() == 1);
+  CHECK_THAT(finer[0], Contains("size: 2 m has no part in the mesh") && Contains("0.2 to 0.3 m"));
   const auto idle = notes_with("[[0 m, 2 m]]", "{sand: {tag: 1}, clay: {tag: 2}}");
   REQUIRE(!idle.empty());
   CHECK_THAT(idle.back(), Contains("'clay': no element"));

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include <catch2/catch.hpp>
@@ -149,4 +150,35 @@ TEST_CASE("Distributions that are none are refused", "[study]") {
   CHECK_THROWS_AS(check({.shape = Shape::lognormal, .mean = -1.0, .deviation = 1.0}), InputError);
   CHECK_THROWS_AS(check({.shape = Shape::normal, .mean = 0.0, .deviation = 1.0, .min = 30.0}),
                   InputError);
+}
+
+TEST_CASE("Distributions whose numbers overflow, or have no spread, are refused", "[study]") {
+  const auto refusal = [](const Distribution& d) {
+    try {
+      check(d);
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  using Catch::Contains;
+  const auto of = [](Shape shape, double mean, double deviation) {
+    return Distribution{.shape = shape, .mean = mean, .deviation = deviation};
+  };
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  // The variance of the logarithm is log(1 + (deviation/mean)^2).
+  CHECK_THAT(refusal(of(Shape::lognormal, 1.0, 1e200)), Contains("no finite deviation"));
+  CHECK_THAT(refusal(of(Shape::lognormal, 1.0, 1e-9)), Contains("one number"));
+  CHECK_THAT(refusal(of(Shape::lognormal, 1e308, 1e308)), Contains("larger ones than"));
+  CHECK_THAT(refusal(of(Shape::normal, 0.0, 1e308)), Contains("larger ones than"));
+  CHECK_THAT(refusal(of(Shape::normal, 1e6, 1e-12)), Contains("spread"));
+  CHECK_FALSE(refusal(of(Shape::normal, 0.0, kInfinity)).empty());
+  CHECK_THAT(refusal({.shape = Shape::uniform, .from = -1e308, .to = 1e308}),
+             Contains("larger ones than"));
+  for (const std::string& text :
+       {refusal(of(Shape::lognormal, 1.0, 1e200)), refusal(of(Shape::normal, 0.0, kInfinity))})
+    CHECK_THAT(text, !Contains("nan"));
+  CHECK(refusal(of(Shape::lognormal, 1.0, 1e-6)).empty());  // controls
+  CHECK(refusal(of(Shape::lognormal, 5.0, 50.0)).empty());
+  CHECK(refusal(of(Shape::normal, 0.0, 1e300)).empty());
 }

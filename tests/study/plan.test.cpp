@@ -3,6 +3,8 @@
 
 #include <set>
 
+#include <fmt/format.h>
+
 using namespace flowslide;
 using namespace flowslide::study;
 using namespace flowslide::study::sample;
@@ -85,11 +87,60 @@ TEST_CASE("Tables from spreadsheets of other countries are told what is wrong", 
   CHECK_THROWS_WITH(plan("name,a\n1,\"0,5\"\n"), Contains("It has a decimal comma"));
   CHECK_THROWS_WITH(plan("name,a\n1,0.5\xC2\xA0\n"), Contains("non-breaking space"));
   CHECK_THROWS_WITH(plan("n\0a\0"s), Contains("UTF-16"));
-  CHECK_THROWS_WITH(plan("name,a\n1,2,3\n"), Contains("has 3 cells, the header 2. "));
+  CHECK_THROWS_WITH(plan("name,a\n1,2,3\n"),
+                    Contains("cases.csv:2: has 3 cells, and the header 2 (name, a). "));
   CHECK_THROWS_WITH(plan("name,a,a\n1,2,3\n"), Contains("several columns 'a'"));
   for (const std::string nothing : {"~", "null"})
     CHECK_THROWS_WITH(plan("name,a\n1," + nothing + "\n"),
-                      Contains("row '1': column 'a' is empty"));
+                      Contains("cases.csv:2: row '1', column 'a' is empty"));
+}
+
+TEST_CASE("What is wrong in a table is told with its line and column", "[study]") {
+  const StudyBench bench;
+  const auto refused = [&](const std::string& csv) {
+    bench.scratch.write("cases.csv", csv);
+    try {
+      (void)bench.plan(
+          "  vary: {case: {table: cases.csv, columns: {a: stages.one.with.value, "
+          "b: stages.two.with.value}}}\n");
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  CHECK(refused("name,a,b\nx,1,2\n").empty());  // control
+  CHECK_THAT(refused("# ours\nname,a,b\n\nx,1\n"),
+             Contains("study.yaml:5:") &&
+                 Contains("cases.csv:4: has 2 cells, and the header 3 (name, a, b)"));
+  CHECK_THAT(refused("name,a,b\nx,1,2\ny,1,2,3\n"),
+             Contains("cases.csv:3: has 4 cells") && !Contains("decimal comma"));
+  CHECK(refused("\"name\",\"a\",\"b\"\n\"x\",\"1\",\"2\"\n").empty());  // as from a spreadsheet
+  CHECK_THAT(refused("name,a,b\nx,1,\n"), Contains("cases.csv:2: row 'x', column 'b' is empty"));
+  CHECK_THAT(refused("name,a,b\nx,1,1 2\xC2\xA0\n"), Contains("cases.csv:2: column 'b': '1 2"));
+  // What only the stage can refuse.
+  CHECK_THAT(
+      refused("name,a,b\n# none\nx,1,much\n"),
+      Contains("study.yaml:5:") && Contains("cases.csv:3: column 'b': stages.two.with.value=much"));
+}
+
+TEST_CASE("A sample of more inputs than the sequence of Sobol has is refused", "[study]") {
+  const StudyBench bench;
+  const auto sample = [&](std::size_t inputs, const std::string& method) {
+    std::string text = "  sample:\n    method: " + method + "\n    count: 2\n    inputs:\n";
+    for (std::size_t i = 0; i < inputs; ++i)
+      text += fmt::format(
+          "      f{}: {{setting: stages.sum.with.x{}, uniform: {{from: 1, to: 2}}}}\n", i, i);
+    return read_study(bench.scratch.write("study.yaml",
+                                          "schema: 1\nname: demo\nstudy:\n"
+                                          "  workflow: base.yaml\n" +
+                                              text));
+  };
+  CHECK(sample(21, "sobol").parts[0].sample->inputs.size() == 21);
+  CHECK_THROWS_WITH(sample(22, "sobol"),
+                    Contains("study.yaml:6:") &&
+                        Contains("takes 21 inputs at most, and there are 22") &&
+                        Contains("latin_hypercube"));
+  CHECK(sample(22, "latin_hypercube").parts[0].sample->inputs.size() == 22);
 }
 
 TEST_CASE("Sampled rows are the same for a seed", "[study]") {

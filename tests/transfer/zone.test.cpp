@@ -327,7 +327,8 @@ TEST_CASE("settings that do not fit the mesh or each other are refused", "[trans
                     }),
                     Catch::Contains("exchange them"));
   CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.box.left = 50.0; }),
-                    Catch::Contains("no liquefiable element lies in it"));
+                    Catch::Contains("no liquefiable element lies in it") &&
+                        Catch::Contains("which spans x = 0 to"));
   CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.base_nodes = {4711}; }),
                     Catch::Contains("no node 4711"));
   CHECK_THROWS_WITH(with([](ZoneConfig& c) { c.transfer.when = TransferWhen::gravity; }),

@@ -269,6 +269,11 @@ TEST_CASE("Residual strength is a small share of the stress it belongs to") {
   CHECK_THAT(with(25e3, 3e6).errors, Contains("120 times the stress"));
   CHECK_THAT(with(25e3, 15e3).warnings, Contains("0.6 times"));
   CHECK_THAT(with(25e3, 3.0).warnings, Contains("0.00012 times"));
+  Findings rising, falling;
+  check_strength({.table = {{25e3, 3e3}, {250e3, 11e3}}}, rising);
+  check_strength({.table = {{25e3, 11e3}, {250e3, 3e3}}}, falling);
+  CHECK(rising.warnings.empty());
+  CHECK_THAT(answer(falling).warnings, Contains("row 2: S_r falls to 3 kPa from 11 kPa"));
 }
 
 TEST_CASE("Depths count from a pond above the soil") {
@@ -428,6 +433,7 @@ TEST_CASE("A region of a report holds soil") {
     return answer(found);
   };
   CHECK_THAT(with({{0, 0}, {1, 1}}).errors, Contains("regions.part: 2 corners"));
+  CHECK_THAT(with({{0, 0}, {75, 0}, {0, 0}}).errors, Contains("lie on one line"));
   CHECK_THAT(with({{1e3, 0}, {1.1e3, 0}, {1e3, 10}}).warnings,
              Contains("regions.part: holds no part of the section, which spans x = 0 to 120 m"));
   for (const double size : {100.0, 1.0}) {  // of many elements, and within one

@@ -166,6 +166,9 @@ TEST_CASE("Water that is not handed over, and errors that an audit would pass, a
   CHECK_THAT(with([](MapConfig& c) { c.audit.stress = 1.0; }), Contains("audit.stress: 1 passes"));
   CHECK_THAT(with([](MapConfig& c) { c.friction_acts_on = FrictionStress::total; }),
              Contains("friction_acts_on: total"));
+  CHECK(with([](MapConfig& c) { c.c_soft_ratio = 0.25; }).empty());
+  CHECK_THAT(with([](MapConfig& c) { c.c_soft_ratio = 0.001; }),
+             Contains("c_soft_ratio: 0.001 leaves liquefied soil with 0.1 % of"));
 }
 
 TEST_CASE("A Poisson's ratio that costs steps and gives nothing is seen") {

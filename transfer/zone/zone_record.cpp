@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace flowslide {
 namespace {
@@ -46,6 +47,24 @@ std::vector<std::int32_t> liquefiable_tags(const QuadMesh& mesh,
   return tags;
 }
 
+[[noreturn]] void refuse_box(const QuadMesh& mesh, const std::vector<std::int32_t>& liquefiable) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  Vec2 low{kFar, kFar}, high{-kFar, -kFar};
+  for (std::size_t e = 0; e < mesh.num_elements(); ++e) {
+    if (std::ranges::find(liquefiable, mesh.element_material[e]) == liquefiable.end()) continue;
+    for (const std::int32_t n : mesh.elements[e])
+      for (std::size_t d = 0; d < 2; ++d) {
+        low[d] = std::min(low[d], mesh.nodes[n][d]);
+        high[d] = std::max(high[d], mesh.nodes[n][d]);
+      }
+  }
+  throw InputError(fmt::format(
+      "box: no liquefiable element lies in it (nothing can liquefy) it must reach around "
+      "what is liquefiable, which spans x = {:.6g} to {:.6g} m and y = {:.6g} to {:.6g} "
+      "m. Are the units right?",
+      low[0], high[0], low[1], high[1]));
+}
+
 ZoneParts divide(const QuadMesh& mesh, const std::vector<HistoryMaterial>& materials,
                  const TransferRuleConfig& config) {
   const std::vector<std::int32_t> liquefiable = liquefiable_tags(mesh, materials, config);
@@ -62,9 +81,7 @@ ZoneParts divide(const QuadMesh& mesh, const std::vector<HistoryMaterial>& mater
     parts.soil.push_back(static_cast<std::int32_t>(e));
     parts.in_soil[e] = 1;
   }
-  validate(
-      !parts.soil.empty(),
-      "box: no liquefiable element lies in it (nothing can liquefy) check box and liquefiable");
+  if (parts.soil.empty()) refuse_box(mesh, liquefiable);
   parts.base_nodes = config.base_nodes.empty() ? lowest_nodes(mesh, parts.section)
                                                : tagged_nodes(mesh, config.base_nodes);
   return parts;

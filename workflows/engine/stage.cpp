@@ -21,6 +21,19 @@ YamlNode follow(YamlNode node, std::string_view& path) {
   return node;
 }
 
+/// In which folder a name was looked for, and why there.
+std::string where_looked(const YamlNode& node, const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::absolute(file, error).parent_path();
+  if (error) return {};
+  const Where where = node.where();
+  return fmt::format(
+      " (looked for in {}: {})", folder.lexically_normal().string(),
+      where.line > 0 ? fmt::format("names in {} are relative to its folder",
+                                   std::filesystem::path(where.file).filename().string())
+                     : "names in --set are relative to the folder in which the program is started");
+}
+
 }  // namespace
 
 InputError locate(const YamlNode& settings, std::string_view text) {
@@ -41,10 +54,13 @@ FileError locate_file(const YamlNode& settings, std::string_view text) {
   const YamlNode node = follow(settings, path);
   // A default, or an entry of a list: the place of what is written above it.
   if (node.kind() != YamlNode::Kind::scalar) return FileError(node.error(text).what());
-  const std::filesystem::path file = node.folder() / node.scalar();
-  const std::string why = why_unreadable(file);
+  const std::filesystem::path file = (node.folder() / node.scalar()).lexically_normal();
+  std::string why = why_unreadable(file);
+  if (why.starts_with("no such file") && std::filesystem::path(node.scalar()).is_relative() &&
+      why.find('~') == std::string::npos)
+    why += where_looked(node, file);
   if (why.empty()) return FileError(node.error(text.substr(colon + 2)).what());
-  return FileError(node.error(fmt::format("{}: {}", file.lexically_normal().string(), why)).what());
+  return FileError(node.error(fmt::format("{}: {}", file.string(), why)).what());
 }
 
 }  // namespace flowslide::detail

@@ -22,6 +22,14 @@ void check_transfer_rules(const MapConfig& map, Findings& found) {
     warn(found,
          "friction_acts_on: total hands no pore pressure over: soil below the water has the "
          "friction of dry soil. Take effective.");
+  // The least that anybody has computed with is a quarter.
+  constexpr double kLeastSoft = 0.05;
+  if (map.c_soft_ratio && *map.c_soft_ratio < kLeastSoft)
+    warn(
+        found,
+        "c_soft_ratio: {:g} leaves liquefied soil with {:.3g} % of its residual strength: it flows "
+        "like a liquid. It is a ratio, 1 for the residual strength itself.",
+        *map.c_soft_ratio, 100.0 * *map.c_soft_ratio);
   const AuditLimits usual, &a = map.audit;
   const auto look = [&](const char* name, double limit, double least) {
     if (limit > least)

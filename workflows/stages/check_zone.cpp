@@ -10,6 +10,16 @@
 namespace flowslide {
 namespace {
 
+/// Positive where its corners go round to the left.
+double outline_area(const ReportRegion& region) {
+  double area = 0.0;
+  for (std::size_t i = 0; i < region.outline.size(); ++i) {
+    const auto &a = region.outline[i], &b = region.outline[(i + 1) % region.outline.size()];
+    area += 0.5 * (a[0] * b[1] - b[0] * a[1]);
+  }
+  return area;
+}
+
 std::string span_text(const Extent& e) {
   return fmt::format("x = {:.6g} to {:.6g} m and y = {:.6g} to {:.6g} m", e.left, e.right, e.bottom,
                      e.top);
@@ -46,6 +56,11 @@ void check_strength(const StrengthConfig& strength, Findings& found) {
           "stress; liquefied soil keeps 0.03 to 0.3 of it.",
           i + 1, s / 1e3, stress / 1e3, ratio));
     }
+    if (i > 0 && s < strength.table[i - 1][1])
+      found.warnings.push_back(fmt::format(
+          "strength.table row {}: S_r falls to {:g} kPa from {:g} kPa in the row before, under a "
+          "larger stress: deeper soil would be weaker. Are the columns in their order?",
+          i + 1, s / 1e3, strength.table[i - 1][1] / 1e3));
   }
 }
 
@@ -194,6 +209,11 @@ void check_region(const std::string& name, const ReportRegion& region, const Qua
     found.errors.push_back(
         fmt::format("regions.{}: {} corners (a region needs three or more) give its outline", name,
                     region.outline.size()));
+    return;
+  }
+  if (std::abs(outline_area(region)) <= 0.0) {
+    found.errors.push_back(fmt::format(
+        "regions.{}: its corners lie on one line (nothing lies inside) give its outline", name));
     return;
   }
   if (mesh.nodes.empty()) return;

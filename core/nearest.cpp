@@ -1,7 +1,9 @@
-#include "config/yaml.hpp"
+#include "core/nearest.hpp"
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
+#include <vector>
 
 namespace flowslide {
 namespace {
