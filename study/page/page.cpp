@@ -27,7 +27,9 @@ class Writer {
 
   Page write() {
     head();
-    html_ += warnings(table_) + judgement(plan_, table_, f_) + what_was_varied(plan_, table_, f_);
+    html_ += warnings(table_) + judgement(plan_, table_, f_);
+    section();
+    html_ += what_was_varied(plan_, table_, f_);
     answer();
     explorer();
     side_by_side();
@@ -82,14 +84,26 @@ class Writer {
     if (open > 0) html_ += fmt::format(", {} still to be computed", open);
     html_ += counted_rows(plan_) + ".</p></div>" + cards(plan_, table_, f_) + "</header><nav>";
     for (const auto& [id, name] :
-         {std::pair{"judgement", "The answer"}, std::pair{"varied", "What was varied"},
-          std::pair{"results", "Results"}, std::pair{"explore", "Explore"},
-          std::pair{"side-by-side", "Two runs"}, std::pair{"charts", "Charts"},
-          std::pair{"relations", "What it hangs on"}, std::pair{"rows", "All rows"},
-          std::pair{"cost", "How it was computed"}})
-      if (id != std::string_view("side-by-side") || has_reports())
+         {std::pair{"judgement", "The answer"}, std::pair{"section", "The section"},
+          std::pair{"varied", "What was varied"}, std::pair{"results", "Results"},
+          std::pair{"explore", "Explore"}, std::pair{"side-by-side", "Two runs"},
+          std::pair{"charts", "Charts"}, std::pair{"relations", "What it hangs on"},
+          std::pair{"rows", "All rows"}, std::pair{"cost", "How it was computed"}})
+      if ((id != std::string_view("side-by-side") || has_reports()) &&
+          (id != std::string_view("section") || has_section()))
         html_ += fmt::format("<a href='#{}'>{}</a>", id, name);
     html_ += "<span id='tools'></span></nav><main>";
+  }
+
+  [[nodiscard]] bool has_section() const { return about_.stories && about_.stories->has_section; }
+
+  void section() {
+    if (!has_section()) return;
+    open("section", "The section, and how far its runs come");
+    html_ +=
+        "<div id='fronts'><p>The drawing of the section needs JavaScript; the charts below do "
+        "not.</p></div>";
+    close();
   }
 
   void answer() {
@@ -390,10 +404,13 @@ class Writer {
     if (!about_.sessions.empty()) cost();
     close();
     html_ += fmt::format(
-        "</main><script type='application/json' id='study'>{}</script><script>{}</script>\n{}"
+        "</main><script type='application/json' id='study'>{}</script>{}<script>{}</script>\n{}"
         "</body></html>\n",
-        in_script(explorer_json(plan_, table_, f_, about_, explorer_start())), kStudyScript,
-        about_.embedded ? about_.embedded->elements : "");
+        in_script(explorer_json(plan_, table_, f_, about_, explorer_start())),
+        about_.stories ? "<script type='application/json' id='stories'>" +
+                             in_script(about_.stories->json) + "</script>"
+                       : "",
+        kStudyScript, about_.embedded ? about_.embedded->elements : "");
   }
 
   void cost() {

@@ -192,6 +192,8 @@ TEST_CASE("Child of the browser test: writes the page of a study", "[.page-child
   Explored e;
   for (std::size_t row = 0; row < e.table.rows; ++row)
     e.about.reports[row] = row < 6 ? "" : row % 2 ? "long.html" : "short.html";
+  e.about.stories =
+      read_stories(std::filesystem::path(out).parent_path(), e.table, e.about.reports);
   if (std::getenv("FLOWSLIDE_WHOLE"))
     e.about.embedded = embed_runs(std::filesystem::path(out).parent_path(), e.about.reports);
   std::ofstream(out) << e.page();

@@ -64,6 +64,30 @@ def show_explorer(page):
     page.run("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
 
+def check_section(page):
+    """The section of dam_case, whose toe is at 75 m, and the fronts of its runs beneath it."""
+    soils = page.run("document.querySelectorAll('#fronts path.soil').length")
+    expect(f"soils are drawn ({soils})", soils == 3)
+    key = page.run("document.querySelector('.soilkey').textContent")
+    expect(f"and named: {key}", "soil 1" in key and "water" in key)
+    rugs = page.run("document.querySelectorAll('#fronts line.rug').length")
+    expect(f"each run with a page is a stroke ({rugs})", rugs == 18)
+    expect("the toe is marked", page.run(
+        "[...document.querySelectorAll('#fronts text')].some(e => e.textContent === 'toe')"))
+    # Control of the scale: the mesh ends 10 m beyond the toe.
+    far = page.run("(() => { const of = (s) => document.querySelector(s).getBoundingClientRect(); "
+                   "const soils = [...document.querySelectorAll('#fronts path.soil')].map(e => "
+                   "e.getBoundingClientRect()); const left = Math.min(...soils.map(b => b.left)), "
+                   "right = Math.max(...soils.map(b => b.right)); "
+                   "const toe = of('#fronts line.mark').left; return (right - toe) / (right - left); })()")
+    expect(f"the toe is in its place ({far:.4f})", abs(far - 10 / 225) < 0.004)
+    page.run("document.querySelector('svg.fronts').focus()")
+    page.key("ArrowRight")
+    tip = page.run("document.querySelector('#fronts .tip').innerText")
+    told = page.run("JSON.parse(document.getElementById('stories').textContent).fronts[6] - 75")
+    expect(f"a run tells its runout ({tip!r})", "factor" in tip and f"{told:.1f}" in tip)
+
+
 def check_explorer(page):
     show_explorer(page)
     # Eight rows with three repeats; the results of the first three rows are not known.
@@ -340,6 +364,7 @@ def main(test_study, test_report, pictures=None):
             page.open(folder / "study.html", 390, phone=True)
             check_touch(page)
             page.open(folder / "study.html", 1280)
+            check_section(page)
             check_explorer(page)
             check_choices(page)
             check_zoom(page)
