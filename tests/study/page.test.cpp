@@ -87,6 +87,7 @@ TEST_CASE("The chart of a page has the table's numbers, and which rows are repea
   const auto data = nlohmann::json::parse(
       explorer_json(e.plan, e.table, analyse(e.plan, e.table), e.about, {"factor", "sum", "one"}));
   CHECK(data["labels"].size() == 24);
+  CHECK(data["labels"][4] == "row 5: one a, factor 2, repeat 1");
   CHECK(data["pages"][4] == "run.html");
   CHECK(data["pages"][5] == "");
   // three repeats of each of eight rows

@@ -185,9 +185,16 @@ def check_opening(page):
     page.point_at(x, y)
     tip = page.run("document.querySelector('.scatter .tip').innerText")
     expect(f"a point tells its row and values ({tip!r})",
-           "one </script>, factor 1" in tip and "5 \u00b1 0.005" in tip and "mean of 3" in tip)
+           "row 13: one </script>, factor 1" in tip and "5 \u00b1 0.005" in tip and "mean of 3" in tip)
     click(page, x, y)
-    expect("a click opens its run", frame_source(page, "left").endswith("short.html#the-flow"))
+    expect("a click opens its run", "/short.html?row=row+13" in frame_source(page, "left")
+           and frame_source(page, "left").endswith("#the-flow"))
+    which = page.run("document.querySelector('[data-side=left]').textContent")
+    expect(f"above it stands which row it is ({which})",
+           which == "row 13: one </script>, factor 1")
+    said = page.wait_in("left", "document.querySelector('.of-row')?.textContent")
+    expect(f"and in its own heading ({said})", said == which)
+    expect("and in its title", page.run_in("left", "document.title").startswith("row 13: "))
     expect("on the left alone", frame_source(page, "right") == "")
     expect("and is told to be below the chart", page.run(
         "document.querySelector('.chosen a[href=\"#side-by-side\"]').innerText")
@@ -196,7 +203,7 @@ def check_opening(page):
     page.key("End")
     page.call("Input.dispatchKeyEvent", type="keyDown", key="Enter", code="Enter", modifiers=8)
     page.call("Input.dispatchKeyEvent", type="keyUp", key="Enter", code="Enter", modifiers=8)
-    expect("Shift and Enter open on the right", "html#the-flow" in frame_source(page, "right"))
+    expect("Shift and Enter open on the right", "#the-flow" in frame_source(page, "right"))
     expect("what is open is marked", page.run(
         "[...document.querySelectorAll('.scatter .opentext')].map(e => e.textContent).join()")
         == "left,right")
@@ -213,7 +220,7 @@ def check_touch(page):
     expect(f"a finger chooses a point ({told})", "factor 1" in told and "left right" in told)
     expect("and opens nothing by itself", frame_source(page, "left") == "")
     page.run("document.querySelectorAll('.chosen button')[1].click()")
-    expect("its buttons do", "html#the-flow" in frame_source(page, "right"))
+    expect("its buttons do", "#the-flow" in frame_source(page, "right"))
     expect("beside nothing too wide", page.run(
         "document.documentElement.scrollWidth <= innerWidth"))
 
@@ -330,6 +337,8 @@ def check_whole(page):
     expect("a click on a point opens another", "</script>" in page.run(
         "document.querySelector('[data-side=left]').textContent"))
     top = "document.getElementById('histories').getBoundingClientRect().top"
+    expect("with its row in its heading", page.run_in(
+        "left", "document.querySelector('.of-row').textContent").startswith("row 13: "))
     expect("at its flow", 0 <= page.run_in("left", top.replace("histories", "the-flow")) < 100)
     expect("not at its histories", page.run_in("left", top) > 300)
     page.run_in("left", "document.querySelector('nav a[href=\"#histories\"]').click()")
@@ -338,7 +347,10 @@ def check_whole(page):
     page.run("document.querySelector('#rows a[target=_blank]').click()", userGesture=True)
     page.wait("window.tab?.document.documentElement?.dataset.ready")
     expect("a run has a tab of its own", page.run("tab.document.documentElement.dataset.ready")
-           == "yes" and "</script>" not in page.run("tab.document.title"))
+           == "yes")
+    told = page.run("tab.document.querySelector('.of-row').textContent")
+    expect(f"and its row ({told})", told.startswith("row 7: ") and told in page.run(
+        "tab.document.title"))
     page.run("tab.close()")
 
 
