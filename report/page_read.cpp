@@ -4,9 +4,14 @@
 #include "report/page_unpack.hpp"
 
 #include <cmath>
+#include <cstdint>
+
+#include <nlohmann/json.hpp>
 
 namespace flowslide {
 namespace {
+
+using PageJson = nlohmann::ordered_json;
 
 double number_or_unset(const PageJson& json) {
   return json.is_number() ? json.get<double>() : kUnset;
@@ -28,17 +33,16 @@ std::vector<std::array<double, N>> rows_in(const PageJson& run, const char* name
   return rows;
 }
 
-std::vector<double> values_of(const PageJson& entry, const StoredArray& a, std::string_view bytes) {
-  const double lowest = entry.at("lowest").get<double>(), step = entry.at("step").get<double>();
+std::vector<double> values_of(const StoredArray& a, std::string_view bytes) {
   const std::uint32_t unset = a.width == 1 ? 0xffu : 0xffffu;
   std::vector<double> values;
   values.reserve(a.size());
   for (const std::uint32_t level : decoded_levels(bytes, a.columns, a.width))
-    values.push_back(level == unset ? kUnset : lowest + level * step);
+    values.push_back(level == unset ? kUnset : a.lowest + level * a.step);
   return values;
 }
 
-PageRun run_of(const PageJson& json, const std::string& bytes,
+PageRun run_of(const PageJson& json, const StoredArrays& stored,
                const std::function<bool(std::string_view)>& wanted) {
   PageRun run;
   run.toe = number_in(json, "toe_m");
@@ -50,14 +54,8 @@ PageRun run_of(const PageJson& json, const std::string& bytes,
   run.ground = rows_in<2>(json, "ground");
   run.water = rows_in<3>(json, "water");
   if (json.contains("windows")) run.windows = json["windows"].get<std::vector<std::string>>();
-  std::size_t at = 0;
-  for (const PageJson& entry : json.at("arrays")) {
-    const StoredArray a = stored_array(entry);
-    const std::string name = entry.at("name");
-    if (wanted(name))
-      run.arrays[name] = values_of(entry, a, std::string_view(bytes).substr(at, a.bytes()));
-    at += a.bytes();
-  }
+  for (const StoredArray& a : stored.list)
+    if (wanted(a.name)) run.arrays[a.name] = values_of(a, stored.bytes_of(a));
   return run;
 }
 
@@ -75,7 +73,7 @@ std::optional<PageRun> read_page(std::string_view html,
   if (!element) return std::nullopt;
   try {
     const PageJson json = PageJson::parse(html.substr(element->begin, element->size()));
-    return run_of(json, page_bytes(html, json), wanted);
+    return run_of(json, stored_arrays(html), wanted);
   } catch (const nlohmann::json::exception& e) {
     damaged_page(e.what());
   }

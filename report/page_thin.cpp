@@ -11,8 +11,12 @@
 #include <stdexcept>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 namespace flowslide {
 namespace {
+
+using PageJson = nlohmann::ordered_json;
 
 /// Of one row per state.
 constexpr std::array kOfStates{"points.x", "points.y", "points.speed", "points.strength"};
@@ -27,27 +31,23 @@ std::vector<std::size_t> evenly(std::size_t of, std::size_t most) {
 
 class Thinning {
  public:
-  Thinning(PageJson& run, std::string bytes, std::size_t states)
+  Thinning(PageJson& run, StoredArrays stored, std::size_t states)
       : run_(run),
-        bytes_(std::move(bytes)),
+        stored_(std::move(stored)),
         chosen_(evenly(run.at("points").at("frames").get<std::size_t>(), states)) {}
 
   std::string write() {
     std::string out;
-    std::size_t at = 0;
-    for (PageJson& entry : run_["arrays"]) {
-      const StoredArray a = stored_array(entry);
-      const std::string_view bytes = std::string_view(bytes_).substr(at, a.bytes());
-      at += a.bytes();
-      out += kept(entry, a, bytes);
-    }
+    for (std::size_t k = 0; k < stored_.list.size(); ++k)
+      out += kept(run_["arrays"][k], stored_.list[k]);
     run_["points"]["frames"] = chosen_.size();
     return out;
   }
 
  private:
-  std::string kept(PageJson& entry, StoredArray a, std::string_view bytes) const {
-    const std::string name = entry.at("name");
+  std::string kept(PageJson& entry, StoredArray a) const {
+    const std::string_view bytes = stored_.bytes_of(a);
+    const std::string& name = a.name;
     const bool times = name == "points.t";
     if (!times && std::find(kOfStates.begin(), kOfStates.end(), name) == kOfStates.end())
       return std::string(bytes);
@@ -65,7 +65,7 @@ class Thinning {
   }
 
   PageJson& run_;
-  std::string bytes_;
+  StoredArrays stored_;
   std::vector<std::size_t> chosen_;
 };
 
@@ -88,7 +88,7 @@ std::string thinned_page(const std::string& html, std::size_t states) {
   try {
     PageJson json = PageJson::parse(html.substr(run->begin, run->size()));
     const std::string bytes =
-        Thinning(json, page_bytes(html, json), std::max<std::size_t>(states, 2)).write();
+        Thinning(json, stored_arrays(html), std::max<std::size_t>(states, 2)).write();
     std::string out = html;
     // the later one first: the place of the earlier stays
     out.replace(arrays->begin, arrays->size(), packed(bytes));

@@ -2,10 +2,15 @@
 
 #include "core/check.hpp"
 
+#include <cstdint>
 #include <zlib.h>
+
+#include <nlohmann/json.hpp>
 
 namespace flowslide {
 namespace {
+
+using PageJson = nlohmann::ordered_json;
 
 constexpr std::size_t kLargestPage = 1u << 28;  ///< bytes of all that is unpacked
 
@@ -13,6 +18,18 @@ std::size_t count_in(const PageJson& json, const char* name) {
   const PageJson& count = json.at(name);
   if (!count.is_number_unsigned()) damaged_page(fmt::format("'{}' is no whole number", name));
   return count.get<std::size_t>();
+}
+
+StoredArray stored_array(const PageJson& entry) {
+  const StoredArray a{.name = entry.at("name").get<std::string>(),
+                      .rows = count_in(entry, "rows"),
+                      .columns = count_in(entry, "columns"),
+                      .width = count_in(entry, "bits") / 8,
+                      .lowest = entry.at("lowest").get<double>(),
+                      .step = entry.at("step").get<double>()};
+  if (a.rows > kLargestPage || a.columns > kLargestPage || a.width < 1 || a.width > 2)
+    damaged_page("an array is too large");
+  return a;
 }
 
 int digit_of(char c) {
@@ -60,23 +77,25 @@ void damaged_page(std::string_view what) {
       what));
 }
 
-StoredArray stored_array(const PageJson& entry) {
-  const std::size_t bits = count_in(entry, "bits");
-  const StoredArray a{count_in(entry, "rows"), count_in(entry, "columns"), bits / 8};
-  if (a.rows > kLargestPage || a.columns > kLargestPage || a.width < 1 || a.width > 2)
-    damaged_page("an array is too large");
-  return a;
-}
-
-std::string page_bytes(std::string_view html, const PageJson& run) {
+StoredArrays stored_arrays(std::string_view html) {
+  const auto run = find_run(html);
   const auto arrays = find_element(html, kPageArrays, "</script>");
-  if (!arrays) damaged_page("it has no numbers");
+  if (!run || !arrays) damaged_page("it has no numbers");
+  StoredArrays stored;
   std::size_t size = 0;
-  for (const PageJson& entry : run.at("arrays")) {
-    size += stored_array(entry).bytes();
-    if (size > kLargestPage) damaged_page("its arrays are too large");
+  try {
+    const PageJson json = PageJson::parse(html.substr(run->begin, run->size()));
+    for (const PageJson& entry : json.at("arrays")) {
+      StoredArray& a = stored.list.emplace_back(stored_array(entry));
+      a.at = size;
+      size += a.bytes();
+      if (size > kLargestPage) damaged_page("its arrays are too large");
+    }
+  } catch (const nlohmann::json::exception& e) {
+    damaged_page(e.what());
   }
-  return unpacked_bytes(html.substr(arrays->begin, arrays->size()), size);
+  stored.bytes = unpacked_bytes(html.substr(arrays->begin, arrays->size()), size);
+  return stored;
 }
 
 }  // namespace flowslide

@@ -28,8 +28,7 @@ constexpr std::array kConsequences{
     Consequence{"its softening runs on without deformation",
                 "The runout hangs on elastic constants and on the cells: compare it with smaller "
                 "cells before using it."},
-    Consequence{"that of the model, and may be larger",
-                "The runout is a lower bound."},
+    Consequence{"that of the model, and may be larger", "The runout is a lower bound."},
     Consequence{"The run was stopped before rest", "The runout is a lower bound."},
     Consequence{"Do not use the runout before the cause", "The runout says nothing yet."},
     Consequence{"left the model through its outlet",

@@ -36,9 +36,7 @@ std::string readable(const Table& table, const std::string& name) {
   return unit.empty() ? text : fmt::format("{} [{}]", text, unit);
 }
 
-std::string row_title(const Row& row) {
-  return fmt::format("row {}: {}", row.number, row.label());
-}
+std::string row_title(const Row& row) { return fmt::format("row {}: {}", row.number, row.label()); }
 
 std::string spans_of(const std::vector<std::size_t>& rows) {
   constexpr std::size_t kMost = 12;

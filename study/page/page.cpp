@@ -34,6 +34,7 @@ class Writer {
     answer();
     explorer();
     side_by_side();
+    overlay();
     figures();
     relations();
     comparisons();
@@ -88,10 +89,12 @@ class Writer {
          {std::pair{"judgement", "The answer"}, std::pair{"section", "The section"},
           std::pair{"varied", "What was varied"}, std::pair{"results", "Results"},
           std::pair{"explore", "Explore"}, std::pair{"side-by-side", "Two runs"},
-          std::pair{"charts", "Charts"}, std::pair{"relations", "What it hangs on"},
-          std::pair{"rows", "All rows"}, std::pair{"cost", "How it was computed"}})
+          std::pair{"overlay", "Histories"}, std::pair{"charts", "Charts"},
+          std::pair{"relations", "What it hangs on"}, std::pair{"rows", "All rows"},
+          std::pair{"cost", "How it was computed"}})
       if ((id != std::string_view("side-by-side") || has_reports()) &&
-          (id != std::string_view("section") || has_section()))
+          (id != std::string_view("section") || has_section()) &&
+          (id != std::string_view("overlay") || has_curves()))
         html_ += fmt::format("<a href='#{}'>{}</a>", id, name);
     html_ += "<span id='tools'></span></nav><main>";
   }
@@ -276,6 +279,19 @@ class Writer {
 
   [[nodiscard]] bool has_reports() const { return any_report(about_); }
 
+  [[nodiscard]] bool has_curves() const {
+    return about_.stories && !about_.stories->curves.empty();
+  }
+
+  void overlay() {
+    if (!has_curves()) return;
+    open("overlay", "Runs over one another");
+    html_ +=
+        "<div id='strands'><p>Histories and spectra of all runs in one chart need JavaScript.</p>"
+        "</div>";
+    close();
+  }
+
   void side_by_side() {
     if (!has_reports()) return;
     open("side-by-side", "Two runs side by side");
@@ -344,9 +360,17 @@ class Writer {
         "</body></html>\n",
         in_script(explorer_json(plan_, table_, f_, about_, explorer_start())),
         about_.stories ? "<script type='application/json' id='stories'>" +
-                             in_script(about_.stories->json) + "</script>"
+                             in_script(about_.stories->json) + "</script>" + curves_text()
                        : "",
         kStudyScript, about_.embedded ? about_.embedded->elements : "");
+  }
+
+  /// What scripts/strands.js reads.
+  [[nodiscard]] std::string curves_text() const {
+    if (!has_curves()) return "";
+    return "<script type='application/json' id='curves'>" + in_script(about_.stories->curves) +
+           "</script><script type='text/plain' id='curve-arrays'>" + about_.stories->curve_arrays +
+           "</script>";
   }
 
   void cost() {

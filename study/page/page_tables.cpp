@@ -98,9 +98,9 @@ std::string relations_list(const Table& table, const StudyFindings& f) {
         html += relation_item(table, *found[k]);
       html += "</ol>";
     }
-    folded += fmt::format("<details><summary>{} against all {} of them</summary>{}</details>",
-                          xml_text(readable(table, result)), found.size(),
-                          relation_rows(table, found));
+    folded +=
+        fmt::format("<details><summary>{} against all {} of them</summary>{}</details>",
+                    xml_text(readable(table, result)), found.size(), relation_rows(table, found));
   }
   return html + folded +
          "<p class='note'>In brackets: 95 % interval, from resampling the rows. A rank correlation "

@@ -40,7 +40,8 @@ std::string setting_meaning(const Plan& plan, std::string_view setting) {
   nlohmann::json here = nlohmann::json::parse(schema_of(plan, parts[1]), nullptr, false);
   for (std::size_t k = 3; k < parts.size(); ++k) {
     if (!here.is_object()) return "";
-    if (here.contains("items") && !here.contains("properties")) here = nlohmann::json(here["items"]);
+    if (here.contains("items") && !here.contains("properties"))
+      here = nlohmann::json(here["items"]);
     const auto properties = here.find("properties");
     if (properties != here.end() && properties->contains(parts[k]))
       here = nlohmann::json((*properties)[parts[k]]);

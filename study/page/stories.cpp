@@ -4,6 +4,7 @@
 #include "core/files.hpp"
 #include "core/hash.hpp"
 #include "report/page_read.hpp"
+#include "study/page/curves.hpp"
 #include "study/page/soil_rings.hpp"
 
 #include <cmath>
@@ -62,13 +63,15 @@ std::string digest_of(const std::vector<SoilArea>& areas) {
 
 class Reader {
  public:
-  explicit Reader(const Table& table) : front_(table.find("front_m")), fronts_(table.rows) {
+  explicit Reader(const Table& table)
+      : front_(table.find("front_m")), fronts_(table.rows), curves_(table.rows) {
     for (std::size_t r = 0; r < table.rows; ++r)
       fronts_[r] = front_ && front_->is_number ? place(front_->number[r]) : StoryJson(nullptr);
   }
 
   void add(std::size_t row, const PageRun& run) {
     if (fronts_[row].is_null()) fronts_[row] = place(run.front);
+    curves_.add(row, run);
     const std::vector<SoilArea> areas = soil_areas(run);
     if (areas.empty()) return;
     const std::string digest = digest_of(areas);
@@ -85,6 +88,9 @@ class Reader {
     s.has_section = !section_.is_null();
     s.json = StoryJson{{"section", section_}, {"fronts", fronts_}}.dump(
         -1, ' ', false, nlohmann::json::error_handler_t::replace);
+    if (!curves_.any()) return s;
+    s.curves = curves_.json();
+    s.curve_arrays = curves_.arrays();
     return s;
   }
 
@@ -107,11 +113,12 @@ class Reader {
 
   const Column* front_;
   std::vector<StoryJson> fronts_;
+  Curves curves_;
   StoryJson section_;
   std::string drawn_;
 };
 
-bool is_told(std::string_view name) { return name.starts_with("mesh."); }
+bool is_told(std::string_view name) { return name.starts_with("mesh.") || is_for_curves(name); }
 
 }  // namespace
 

@@ -13,6 +13,8 @@ namespace flowslide::study {
 struct Stories {
   bool has_section = false;          ///< of a run at least
   std::string json;                  ///< {section, fronts}; scripts/fronts.js reads it
+  std::string curves;                ///< JSON of study/page/curves.hpp; empty: none
+  std::string curve_arrays;          ///< their ordinates, packed
   std::vector<std::size_t> damaged;  ///< rows whose page cannot be read, from 0
 };
 

@@ -42,7 +42,8 @@ std::string values_text(const Column& c, const StudyFindings& f) {
                      unit);
 }
 
-/// What the settings of an input are, each once, without the values that they may have.
+/// What the settings of an input are, each once, without the values that they may have, and their
+/// names.
 std::string meanings_of(const Plan& plan, const std::vector<std::string>& settings) {
   std::vector<std::string> found;
   for (const std::string& setting : settings) {
@@ -51,7 +52,8 @@ std::string meanings_of(const Plan& plan, const std::vector<std::string>& settin
     if (!text.empty() && std::find(found.begin(), found.end(), text) == found.end())
       found.push_back(std::move(text));
   }
-  return fmt::format("{}", fmt::join(found, "; "));
+  return xml_text(fmt::format("{}", fmt::join(found, "; "))) + (found.empty() ? "" : "<br>") +
+         "<code>" + xml_text(fmt::format("{}", fmt::join(settings, ", "))) + "</code>";
 }
 
 std::string inputs_table(const Plan& plan, const Table& table, const StudyFindings& f) {
@@ -60,22 +62,19 @@ std::string inputs_table(const Plan& plan, const Table& table, const StudyFindin
     const Column* c = table.find(input.name);
     if (!c) continue;
     rows += fmt::format(
-        "<tr><td class='word'>{}</td><td class='word'>{}</td><td class='word'>{}{}</td>"
-        "<td class='word'><code>{}</code></td></tr>",
-        xml_text(input.name), xml_text(meanings_of(plan, input.settings)), xml_text(values_text(*c, f)), input.sampled ? ", sampled" : "",
-        xml_text(fmt::format("{}", fmt::join(input.settings, ", "))));
+        "<tr><td class='word'>{}</td><td class='word'>{}</td><td class='word'>{}{}</td></tr>",
+        xml_text(input.name), meanings_of(plan, input.settings), xml_text(values_text(*c, f)),
+        input.sampled ? ", sampled" : "");
   }
   for (const Column& c : table.columns)
     if (c.role == Role::disturbance && c.name.starts_with("disturbed:"))
       rows += fmt::format(
           "<tr><td class='word'>disturbed by repeats</td><td class='word'>{}</td><td "
-          "class='word'>by what means nothing to the dam</td><td class='word'><code>{}</code></td>"
-          "</tr>",
-          xml_text(meanings_of(plan, {c.name.substr(c.name.find(':') + 1)})),
-          xml_text(c.name.substr(c.name.find(':') + 1)));
+          "class='word'>by what means nothing to the dam</td></tr>",
+          meanings_of(plan, {c.name.substr(c.name.find(':') + 1)}));
   if (rows.empty()) return "";
   return "<div class='wide'><table><tr><th class='word'>input</th><th class='word'>what it is</th>"
-         "<th class='word'>values</th><th class='word'>setting</th></tr>" +
+         "<th class='word'>values</th></tr>" +
          rows + "</table></div>";
 }
 

@@ -3,6 +3,7 @@
 #include "core/xml_text.hpp"
 #include "study/page/consequences.hpp"
 #include "study/page/labels.hpp"
+#include "study/page/meanings.hpp"
 #include "study/statistics/summary.hpp"
 
 #include <algorithm>
@@ -48,7 +49,10 @@ std::string how_far(const Plan& plan, const Table& table, const StudyFindings& f
   const Exceedance& all = f.exceedance[0];
   const std::string name = plain(table, result);
   if (all.value.empty()) return item("No row has told yet.");
+  const auto known = meaning_of(result);
   std::string text =
+      known ? item(fmt::format("The {}: {}.", name, xml_text(known->definition))) : "";
+  text +=
       item(fmt::format("Half of the rows have a {} above <b>{}</b>, one in twenty above <b>{}</b>.",
                        name, with_unit(table, result, weighted_quantile(all, 0.5)),
                        with_unit(table, result, weighted_quantile(all, 0.95))));
@@ -65,9 +69,8 @@ std::string how_far(const Plan& plan, const Table& table, const StudyFindings& f
       if (is_set(number[row]) && (largest == plan.rows.size() || number[row] > number[largest]))
         largest = row;
   if (largest < plan.rows.size())
-    text +=
-        item(fmt::format("The largest is {}, in {}.", with_unit(table, result, number[largest]),
-                         xml_text(row_title(plan.rows[largest]))));
+    text += item(fmt::format("The largest is {}, in {}.", with_unit(table, result, number[largest]),
+                             xml_text(row_title(plan.rows[largest]))));
   return text + outcomes(table, f);
 }
 

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Opens the page of a study in a headless Chromium: page_browser.py TEST_STUDY TEST_REPORT [PICTURES].
+"""Opens the page of a study in a headless Chromium: page_browser.py TEST_STUDY TEST_REPORT [PICTURES [--write]].
 
 TEST_STUDY writes a page of known rows, TEST_REPORT the pages of two runs of other lengths beside it;
-with PICTURES, a folder, what was seen is left there as PNG. Ends with 77, skipped, where there is no
+with PICTURES, a folder, what was seen is left there as PNG, and with --write fixtures/pictures is
+written anew, after a change that was looked at. Ends with 77, skipped, where there is no
 Chromium.
 """
 import os
@@ -14,6 +15,7 @@ import tempfile
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "report"))
 sys.dont_write_bytecode = True
 from browser import Browser, find_chromium  # noqa: E402
+from pictures import Pictures  # noqa: E402
 
 DOTS = "document.querySelectorAll('.scatter circle.dot:not(g[transform] circle)')"
 failures = []
@@ -86,6 +88,38 @@ def check_section(page):
     tip = page.run("document.querySelector('#fronts .tip').innerText")
     told = page.run("JSON.parse(document.getElementById('stories').textContent).fronts[6] - 75")
     expect(f"a run tells its runout ({tip!r})", "factor" in tip and f"{told:.1f}" in tip)
+
+
+def check_strands(page):
+    """The histories of 18 rows with pages, of two kinds that end after 20 and 40 s."""
+    page.wait("document.querySelector('#strands path.strand') !== null")
+    paths = "document.querySelectorAll('#strands path.strand').length"
+    expect(f"runs that share a history share a curve ({page.run(paths)})", page.run(paths) == 2)
+    names = page.run("[...document.querySelectorAll('#strands select')[0].options].map(o => o.value)")
+    expect(f"charts: {names}", names == ["runout", "depth crest", "depth pond", "crest down",
+                                         "crest across", "spectrum"])
+    page.run("document.querySelector('svg.strands').focus()")
+    page.key("ArrowRight")
+    tip = page.run("document.querySelector('#strands .tip').innerText")
+    expect(f"a curve tells its rows ({tip!r})", "row 7: " in tip or "row 8: " in tip)
+    expect("and how many share it", "and 8 more with the same" in tip)
+    grey = "document.querySelectorAll('#strands path.off').length"
+    page.run("document.querySelector('#rows tr[data-row=\"6\"] td').click()")
+    expect("a click on a row lets the others become grey", page.run(grey) == 1)
+    expect("and marks it", page.run("document.querySelectorAll('#rows tr.on').length") == 1)
+    told = page.run("document.querySelector('#strands .picked').innerText")
+    expect(f"and names it ({told})", told.startswith("row 7: "))
+    page.run("document.querySelector('#strands .picked button').click()")
+    expect("it can be let go", page.run(grey) == 0)
+    for name in names:
+        page.run("(() => { const s = document.querySelector('#strands select'); "
+                 f"s.value = '{name}'; s.dispatchEvent(new Event('change')); }})()")
+        longest = page.run("Math.max(...[...document.querySelectorAll('#strands path.strand')]"
+                           ".map(p => p.getTotalLength()))")
+        expect(f"{name} is drawn ({longest:.0f})", longest > 100)
+    # Known: the motion of the pages has its acceleration of 2 m/s2 in a period of 0.63 s.
+    expect("a spectrum has periods", "period" in page.run(
+        "[...document.querySelectorAll('#strands text.label')].map(e => e.textContent).join()"))
 
 
 def check_explorer(page):
@@ -354,7 +388,36 @@ def check_whole(page):
     page.run("tab.close()")
 
 
-def main(test_study, test_report, pictures=None):
+HIDE = "document.styleSheets[0].insertRule('%s { visibility: hidden; }')"
+SEEN = {"section and fronts": "svg.fronts", "chart of points": ".scatter svg",
+        "histories": "svg.strands", "tornado": "#charts figure svg"}
+
+
+def look(page, folder, write):
+    """What the charts look like; and that a page without one, or with another, would be seen."""
+    looks = Pictures("study", expect, write)
+    for name, width, dark, phone in (("desktop", 1280, False, False), ("phone", 390, False, True),
+                                     ("dark", 1280, True, False)):
+        page.open(folder / "study.html", width, dark=dark, phone=phone)
+        page.wait("document.querySelector('#strands path.strand') !== null")
+        for title, selector in SEEN.items():
+            looks.look(page, f"{name}, {title}", selector)
+    looks.save()
+    page.open(folder / "study.html", 1280)
+    page.wait("document.querySelector('#strands path.strand') !== null")
+    for title, selector in SEEN.items():
+        looks.control(page, f"desktop, {title}", selector, "left and right exchanged",
+                      f"document.querySelector('{selector}').style.transform = 'scaleX(-1)'")
+        page.run(f"document.querySelector('{selector}').style.transform = ''")
+    dots = SEEN["chart of points"]
+    looks.control(page, "desktop, chart of points", dots, "no points",
+                  HIDE % ".scatter circle")
+    for title, selector in SEEN.items():
+        looks.control(page, f"desktop, {title}", selector, "nothing in it",
+                      HIDE % selector)
+
+
+def main(test_study, test_report, pictures=None, write=None):
     chromium = find_chromium()
     if not chromium:
         print("no Chromium (Debian: chromium): the page of a study is not opened")
@@ -373,10 +436,12 @@ def main(test_study, test_report, pictures=None):
                     "document.documentElement.scrollWidth <= innerWidth"))
                 if pictures:
                     page.picture(pathlib.Path(pictures, f"study-{name}.png"))
+            look(page, folder, write == "--write")
             page.open(folder / "study.html", 390, phone=True)
             check_touch(page)
             page.open(folder / "study.html", 1280)
             check_section(page)
+            check_strands(page)
             check_explorer(page)
             check_choices(page)
             check_zoom(page)

@@ -19,8 +19,7 @@ namespace {
 std::string sources(std::initializer_list<const char*> modules) {
   std::string text;
   for (const char* module : modules)
-    for (const auto& entry :
-         std::filesystem::recursive_directory_iterator(test::source(module)))
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(test::source(module)))
       if (entry.path().extension() == ".cpp") text += read_file(entry.path(), 1u << 22);
   return text;
 }
@@ -54,7 +53,8 @@ TEST_CASE("Warnings tell in how many rows, in which, and what for", "[study]") {
   table.warnings = {{"flow", "The run was stopped before rest: <b>", 3, {1, 2, 7}},
                     {"map", "odd", 1, {39}}};
   const std::string html = warnings(table);
-  CHECK_THAT(html, Contains("<b>In 3 of 40 rows</b>, flow: The run was stopped before rest: &lt;b"));
+  CHECK_THAT(html,
+             Contains("<b>In 3 of 40 rows</b>, flow: The run was stopped before rest: &lt;b"));
   CHECK_THAT(html, Contains("<span class='means'>The runout is a lower bound.</span> <span "
                             "class='note'>Rows 2 to 3, 8.</span>"));
   CHECK_THAT(html, Contains("<b>In 1 of 40 rows</b>, map: odd <span class='note'>Row 40.</span>"));
@@ -124,7 +124,8 @@ TEST_CASE("The table of rows leaves out what is the same in all, and says which 
 TEST_CASE("Relations are told the strongest first, and all of them folded", "[study]") {
   Table table;
   table.rows = 3;
-  table.columns = {numbers("weak", Role::input, {1, 2, 3}), numbers("strong", Role::input, {1, 2, 3}),
+  table.columns = {numbers("weak", Role::input, {1, 2, 3}),
+                   numbers("strong", Role::input, {1, 2, 3}),
                    numbers("none", Role::input, {1, 2, 3}), numbers("y", Role::found, {1, 2, 3})};
   StudyFindings f;
   f.results = {"y"};

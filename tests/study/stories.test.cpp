@@ -2,11 +2,13 @@
 
 #include "report/page.hpp"
 #include "report/page_arrays.hpp"
+#include "study/page/curves.hpp"
 #include "study/page/soil_rings.hpp"
 #include "tests/support/scratch.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -109,6 +111,46 @@ TEST_CASE("Elements without nodes are refused", "[study]") {
   CHECK_THROWS_AS(soil_areas(s.run()), InputError);
   s.material.clear();
   CHECK(soil_areas(s.run()).empty());
+}
+
+TEST_CASE("A history is read at even places between its rows", "[study]") {
+  CHECK(resampled({0, 1, 4}, {0, 10, 40}, 5) == std::vector<double>{0, 10, 20, 30, 40});
+  CHECK(resampled({2, 2, 4}, {0, 8, 6}, 3) == std::vector<double>{8, 7, 6});
+  CHECK(resampled({1}, {1}, 5).empty());
+  CHECK(resampled({1, 1}, {1, 2}, 5).empty());
+  CHECK(resampled({1, 2}, {1}, 5).empty());
+}
+
+TEST_CASE("Rows that share a shaking share its curves", "[study]") {
+  Curves curves(4);
+  CHECK_FALSE(curves.any());
+  PageRun run;
+  run.toe = 3.0;
+  run.windows = {"pond"};
+  run.arrays = {
+      {"flow.t", {0, 1}},       {"flow.runout", {0, 5}},       {"zone.t", {0, 2}},
+      {"crest.t", {0, 2}},      {"zone.deepest0", {0, 4}},     {"crest.down", {0, 1}},
+      {"crest.across", {0, 2}}, {"spectrum.logT", {-1, 0, 1}}, {"spectrum.psa", {1, 9.81, 2}}};
+  for (const char* name : {"flow.t", "flow.runout", "zone.deepest0", "crest.down", "spectrum.psa"})
+    CHECK(is_for_curves(name));
+  CHECK_FALSE(is_for_curves("points.x"));
+  curves.add(0, run);
+  run.arrays["flow.runout"] = {0, 7};
+  curves.add(2, run);
+  PageRun still;  // a static row, and one of an earlier program
+  curves.add(3, still);
+  REQUIRE(curves.any());
+  const auto json = nlohmann::json::parse(curves.json());
+  std::map<std::string, nlohmann::json> charts;
+  for (const auto& c : json["charts"]) charts[c["name"]] = c;
+  CHECK(charts.size() == 5);
+  CHECK(charts["runout"]["of"] == nlohmann::json{0, -1, 1, -1});
+  CHECK(charts["depth pond"]["of"] == nlohmann::json{0, -1, 0, -1});
+  CHECK(charts["spectrum"]["of"] == nlohmann::json{0, -1, 0, -1});
+  CHECK(charts["spectrum"]["from"][0] == Approx(0.1));
+  CHECK(charts["spectrum"]["to"][0] == Approx(10.0));
+  for (const auto& a : json["arrays"])
+    if (a["name"] == "runout") CHECK(a["rows"] == 2);
 }
 
 TEST_CASE("The section of a study is that of its first run, and fronts are of all", "[study]") {

@@ -136,7 +136,8 @@ TEST_CASE("The page answers in words, warns, and leads to the runs", "[study]") 
   CHECK_THAT(html, Contains("Half of the rows have a sum above <b>6</b>") &&
                        Contains("Numerics alone move one row by") &&
                        Contains("<b>factor</b>: 4.5 on average at 1, 9 at 2: +4.5 ("));
-  CHECK_THAT(html, Contains("count: beyond &lt;1&gt; &amp; 2 <span class='note'>Rows 1 to 3.</span>"));
+  CHECK_THAT(html,
+             Contains("count: beyond &lt;1&gt; &amp; 2 <span class='note'>Rows 1 to 3.</span>"));
   CHECK_THAT(html, Contains("href='stages/report/a/report/report.html#the-flow' target='left'"));
   CHECK_THAT(make_page(plan, table, findings).html, !Contains("<iframe"));
 }

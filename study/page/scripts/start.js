@@ -18,9 +18,12 @@ function start() {
       make("span", { class: "buttons" }, ...saveButtons(() => words.firstChild.textContent, () => svg)),
     );
   }
+  let strands = null;
+  startStrands(data, rows).then((s) => (strands = s));
   const redraw = () => {
     explorer?.chart.render();
     fronts?.render();
+    strands?.render();
   };
   document
     .getElementById("tools")
@@ -44,6 +47,28 @@ function startFronts(data, rows, runs) {
   const fronts = new Fronts({ rows, stories, by: data.start.colour, onPick });
   place.replaceChildren(fronts.element);
   return fronts;
+}
+
+/** Their numbers are packed, and unpacking takes its time: the page is ready without them. */
+async function startStrands(data, rows) {
+  const place = document.getElementById("strands");
+  if (!place) return null;
+  try {
+    const curves = JSON.parse(document.getElementById("curves").textContent);
+    const bytes = await inflate(document.getElementById("curve-arrays").textContent);
+    const strands = new Strands({
+      rows,
+      curves,
+      array: unpack(bytes, curves.arrays),
+      by: data.start.colour,
+    });
+    place.replaceChildren(strands.element);
+    return strands;
+  } catch (error) {
+    place.replaceChildren(make("p", { class: "problem" }, error.message));
+    console.error(error);
+    return null;
+  }
 }
 
 try {
