@@ -343,6 +343,11 @@ class Writer {
     html_ += rows_table(plan_, table_, f_, about_) +
              "<p class='note'>Everything that the stages found: table.csv, table.h5, columns.csv. "
              "The numbers of this page: analysis.json.</p>";
+    if (about_.stories && !about_.stories->damaged.empty())
+      html_ += fmt::format(
+          "<p class='problem'>The pages of these rows are damaged, so that their curves are not "
+          "shown: {}. Make their reports again.</p>",
+          spans_of(about_.stories->damaged));
     close();
   }
 

@@ -105,6 +105,16 @@ TEST_CASE("The chart of a page has the table's numbers, and which rows are repea
   CHECK(data["start"]["colour"] == "one");
 }
 
+TEST_CASE("Rows whose page cannot be read are told", "[study]") {
+  Explored e;
+  CHECK_THAT(e.page(), !Contains("are damaged"));
+  e.about.stories = Stories{};
+  e.about.stories->json = "{}";
+  CHECK_THAT(e.page(), !Contains("are damaged"));
+  e.about.stories->damaged = {3, 4, 7};
+  CHECK_THAT(e.page(), Contains("are not shown: 4 to 5, 8. Make their reports again."));
+}
+
 TEST_CASE("A label of a user ends no script of the page", "[study]") {
   const std::string html = Explored().page();
   const std::size_t data = html.find("id='study'>");
