@@ -63,6 +63,7 @@ async function start() {
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
   printLight(redraw);
   linkPlayer(player);
+  tellRow(document, new URLSearchParams(location.search).get("row"));
   document.documentElement.dataset.ready = "yes";
 }
 

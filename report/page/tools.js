@@ -90,6 +90,18 @@ function save(name, blob) {
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
+/** Says over the title of a page of a run of which row of a study it is. */
+function tellRow(page, words) {
+  const heading = page.querySelector("h1");
+  if (!heading || !words) return;
+  page.querySelector(".of-row")?.remove();
+  const line = page.createElement("p");
+  line.className = "of-row";
+  line.textContent = words;
+  heading.before(line);
+  page.title = `${words} \u2013 ${heading.textContent}`;
+}
+
 const cssVariable = (name) =>
   getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 

@@ -69,7 +69,7 @@ std::string explorer_json(const Plan& plan, const Table& table, const StudyFindi
   ExplorerJson labels = ExplorerJson::array(), pages = ExplorerJson::array(),
                columns = ExplorerJson::array();
   for (std::size_t r = 0; r < table.rows; ++r) {
-    labels.push_back(plan.rows[r].label());
+    labels.push_back(row_title(plan.rows[r]));
     pages.push_back(r < about.reports.size() ? about.reports[r] : "");
   }
   std::vector<std::size_t> group(table.rows);

@@ -36,4 +36,21 @@ std::string readable(const Table& table, const std::string& name) {
   return unit.empty() ? text : fmt::format("{} [{}]", text, unit);
 }
 
+std::string row_title(const Row& row) { return fmt::format("row {}: {}", row.number, row.label()); }
+
+std::string spans_of(const std::vector<std::size_t>& rows) {
+  constexpr std::size_t kMost = 12;
+  std::string text;
+  std::size_t pieces = 0;
+  for (std::size_t i = 0; i < rows.size();) {
+    std::size_t end = i + 1;
+    while (end < rows.size() && rows[end] == rows[end - 1] + 1) ++end;
+    if (pieces++ == kMost) return text + fmt::format(" and {} more", rows.size() - i);
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", rows[i] + 1);
+    if (end - i > 1) text += fmt::format(" to {}", rows[end - 1] + 1);
+    i = end;
+  }
+  return text;
+}
+
 }  // namespace flowslide::study

@@ -5,6 +5,7 @@
 #include "study/page/chart.hpp"
 #include "study/page/explorer_data.hpp"
 #include "study/page/labels.hpp"
+#include "study/page/page_tables.hpp"
 #include "study/page/varied.hpp"
 #include "study/page/words.hpp"
 #include "study/statistics/summary.hpp"
@@ -27,10 +28,13 @@ class Writer {
 
   Page write() {
     head();
-    html_ += warnings(table_) + judgement(plan_, table_, f_) + what_was_varied(plan_, table_, f_);
+    html_ += warnings(table_) + judgement(plan_, table_, f_);
+    section();
+    html_ += what_was_varied(plan_, table_, f_);
     answer();
     explorer();
     side_by_side();
+    overlay();
     figures();
     relations();
     comparisons();
@@ -82,14 +86,28 @@ class Writer {
     if (open > 0) html_ += fmt::format(", {} still to be computed", open);
     html_ += counted_rows(plan_) + ".</p></div>" + cards(plan_, table_, f_) + "</header><nav>";
     for (const auto& [id, name] :
-         {std::pair{"judgement", "The answer"}, std::pair{"varied", "What was varied"},
-          std::pair{"results", "Results"}, std::pair{"explore", "Explore"},
-          std::pair{"side-by-side", "Two runs"}, std::pair{"charts", "Charts"},
+         {std::pair{"judgement", "The answer"}, std::pair{"section", "The section"},
+          std::pair{"varied", "What was varied"}, std::pair{"results", "Results"},
+          std::pair{"explore", "Explore"}, std::pair{"side-by-side", "Two runs"},
+          std::pair{"overlay", "Histories"}, std::pair{"charts", "Charts"},
           std::pair{"relations", "What it hangs on"}, std::pair{"rows", "All rows"},
           std::pair{"cost", "How it was computed"}})
-      if (id != std::string_view("side-by-side") || has_reports())
+      if ((id != std::string_view("side-by-side") || has_reports()) &&
+          (id != std::string_view("section") || has_section()) &&
+          (id != std::string_view("overlay") || has_curves()))
         html_ += fmt::format("<a href='#{}'>{}</a>", id, name);
     html_ += "<span id='tools'></span></nav><main>";
+  }
+
+  [[nodiscard]] bool has_section() const { return about_.stories && about_.stories->has_section; }
+
+  void section() {
+    if (!has_section()) return;
+    open("section", "The section, and how far its runs come");
+    html_ +=
+        "<div id='fronts'><p>The drawing of the section needs JavaScript; the charts below do "
+        "not.</p></div>";
+    close();
   }
 
   void answer() {
@@ -164,7 +182,7 @@ class Writer {
               .y = f_.scatter[result].mean[g],
               .scatter = f_.scatter[result].deviation[g],
               .series = 0,
-              .title = plan_.rows[row].label()};
+              .title = row_title(plan_.rows[row])};
       if (!is_set(dot.x) || !is_set(dot.y)) continue;
       if (by) {
         const auto at = std::find(chart.series.begin(), chart.series.end(), by->text[row]);
@@ -188,17 +206,6 @@ class Writer {
                            is_set(r.within.value)
                                ? fmt::format("; among rows of one {} {}", r.by, interval(r.within))
                                : ""));
-  }
-
-  /// Relations of a result, those with intermediate results first, the strongest of them first.
-  [[nodiscard]] std::vector<const Relation*> strongest(const std::string& result) const {
-    std::vector<const Relation*> found;
-    for (const Relation& r : f_.relations)
-      if (r.y == result) found.push_back(&r);
-    std::stable_sort(found.begin(), found.end(), [](const Relation* a, const Relation* b) {
-      return strength(*a) > strength(*b);
-    });
-    return found;
   }
 
   void main_figures(std::size_t i, const std::string& label) {
@@ -227,7 +234,7 @@ class Writer {
                       : fmt::format("<details><summary>{}</summary>", xml_text(label));
       html_ += "<div class='figures'>";
       main_figures(i, label);
-      const std::vector<const Relation*> related = strongest(f_.results[i]);
+      const std::vector<const Relation*> related = strongest(f_, f_.results[i]);
       for (std::size_t k = 0; k < related.size(); ++k) {
         if (i == 0 && k == kShown)
           html_ +=
@@ -244,19 +251,7 @@ class Writer {
   void relations() {
     if (f_.relations.empty()) return;
     open("relations", "What it hangs on");
-    html_ +=
-        "<div class='wide'><table><tr><th class='word'>result</th>"
-        "<th class='word'>against</th><th>rank correlation</th><th>among rows of one</th>"
-        "<th>slope</th><th>R&sup2;</th><th>rows</th></tr>";
-    for (const Relation& r : f_.relations)
-      html_ += fmt::format(
-          "<tr><td class='word'>{}</td><td class='word'>{}</td><td>{}</td><td>{}</td>"
-          "<td>{}</td><td>{}</td><td>{}</td></tr>",
-          xml_text(readable(table_, r.y)), xml_text(readable(table_, r.x)), interval(r.spearman),
-          is_set(r.within.value) ? xml_text(r.by) + ": " + interval(r.within) : "-",
-          interval(r.line.slope), short_number(r.line.r2), r.spearman.rows);
-    html_ +=
-        "</table></div><p class='note'>In brackets: 95 % interval, from resampling the rows.</p>";
+    html_ += relations_list(table_, f_);
     close();
   }
 
@@ -282,9 +277,19 @@ class Writer {
     close();
   }
 
-  [[nodiscard]] bool has_reports() const {
-    return std::any_of(about_.reports.begin(), about_.reports.end(),
-                       [](const std::string& r) { return !r.empty(); });
+  [[nodiscard]] bool has_reports() const { return any_report(about_); }
+
+  [[nodiscard]] bool has_curves() const {
+    return about_.stories && !about_.stories->curves.empty();
+  }
+
+  void overlay() {
+    if (!has_curves()) return;
+    open("overlay", "Runs over one another");
+    html_ +=
+        "<div id='strands'><p>Histories and spectra of all runs in one chart need JavaScript.</p>"
+        "</div>";
+    close();
   }
 
   void side_by_side() {
@@ -327,56 +332,22 @@ class Writer {
     ExplorerStart start;
     if (f_.results.empty()) return start;
     start.y = start.x = f_.results.front();
-    if (const auto related = strongest(start.y); !related.empty()) start.x = related.front()->x;
+    if (const auto related = strongest(f_, start.y); !related.empty()) start.x = related.front()->x;
     if (const Column* by = colour(start.x, start.y)) start.colour = by->name;
+    start.x = finer(table_, start.x);
     return start;
-  }
-
-  [[nodiscard]] std::string links(std::size_t row) const {
-    const std::string to = row < about_.reports.size() ? about_.reports[row] : "";
-    if (to.empty()) return "<td class='word'></td>";
-    // what is in this file has no address: the scripts open it
-    const std::string page = about_.embedded ? "#side-by-side" : xml_text(to);
-    const std::string flow = about_.embedded ? page : page + "#the-flow";
-    return fmt::format(
-        "<td class='word'><a href='{0}' target='_blank' data-row='{2}'>page</a> <a href='{1}' "
-        "target='left' data-row='{2}'>left</a> <a href='{1}' target='right' "
-        "data-row='{2}'>right</a></td>",
-        page, flow, row);
   }
 
   void rows() {
     open("rows", "All rows");
-    html_ += "<div class='wide'><table><tr>";
-    std::vector<const Column*> columns;
-    for (const Column& c : table_.columns) {
-      const bool result =
-          std::find(f_.results.begin(), f_.results.end(), c.name) != f_.results.end();
-      if (c.name == "row" || c.name == "variant" || c.name == "repeat" || c.role == Role::input ||
-          c.name == "state" || c.name == "cause" || c.name == "outcome" || result)
-        columns.push_back(&c);
-    }
-    for (const Column* c : columns)
-      html_ += fmt::format("<th{}>{}</th>", c->is_number ? "" : " class='word'",
-                           xml_text(readable(table_, c->name)));
-    html_ += has_reports() ? "<th class='word'>run</th></tr>" : "</tr>";
-    for (std::size_t r = 0; r < table_.rows; ++r) {
-      html_ += "<tr>";
-      for (const Column* c : columns) {
-        const bool failed = c->name == "state" && c->text[r] == "failed";
-        html_ += fmt::format(
-            "<td{}>{}</td>",
-            failed         ? " class='word failed'"
-            : c->is_number ? ""
-                           : " class='word'",
-            xml_text(is_set(c->number[r]) ? fmt::format("{:.4g}", c->number[r]) : c->text[r]));
-      }
-      if (has_reports()) html_ += links(r);
-      html_ += "</tr>";
-    }
-    html_ +=
-        "</table></div><p class='note'>Everything that the stages found: table.csv, table.h5, "
-        "columns.csv. The numbers of this page: analysis.json.</p>";
+    html_ += rows_table(plan_, table_, f_, about_) +
+             "<p class='note'>Everything that the stages found: table.csv, table.h5, columns.csv. "
+             "The numbers of this page: analysis.json.</p>";
+    if (about_.stories && !about_.stories->damaged.empty())
+      html_ += fmt::format(
+          "<p class='problem'>The pages of these rows are damaged, so that their curves are not "
+          "shown: {}. Make their reports again.</p>",
+          spans_of(about_.stories->damaged));
     close();
   }
 
@@ -390,10 +361,21 @@ class Writer {
     if (!about_.sessions.empty()) cost();
     close();
     html_ += fmt::format(
-        "</main><script type='application/json' id='study'>{}</script><script>{}</script>\n{}"
+        "</main><script type='application/json' id='study'>{}</script>{}<script>{}</script>\n{}"
         "</body></html>\n",
-        in_script(explorer_json(plan_, table_, f_, about_, explorer_start())), kStudyScript,
-        about_.embedded ? about_.embedded->elements : "");
+        in_script(explorer_json(plan_, table_, f_, about_, explorer_start())),
+        about_.stories ? "<script type='application/json' id='stories'>" +
+                             in_script(about_.stories->json) + "</script>" + curves_text()
+                       : "",
+        kStudyScript, about_.embedded ? about_.embedded->elements : "");
+  }
+
+  /// What scripts/strands.js reads.
+  [[nodiscard]] std::string curves_text() const {
+    if (!has_curves()) return "";
+    return "<script type='application/json' id='curves'>" + in_script(about_.stories->curves) +
+           "</script><script type='text/plain' id='curve-arrays'>" + about_.stories->curve_arrays +
+           "</script>";
   }
 
   void cost() {

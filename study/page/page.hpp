@@ -1,5 +1,6 @@
 #pragma once
 #include "study/page/embedded.hpp"
+#include "study/page/stories.hpp"
 #include "study/run/session_record.hpp"
 #include "study/table/analysis.hpp"
 
@@ -23,6 +24,7 @@ struct StudyAbout {
   /// Page of each row's run: its path beside the study's, or its id in `embedded`; "" for none.
   std::vector<std::string> reports;
   std::optional<EmbeddedRuns> embedded = {};  ///< in the page itself
+  std::optional<Stories> stories = {};        ///< what the pages of runs say
 };
 
 Page make_page(const Plan& plan, const Table& table, const StudyFindings& findings,

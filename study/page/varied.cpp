@@ -3,6 +3,7 @@
 #include "core/xml_text.hpp"
 #include "study/page/labels.hpp"
 #include "study/page/meanings.hpp"
+#include "study/page/setting_meaning.hpp"
 #include "study/statistics/summary.hpp"
 
 #include <algorithm>
@@ -41,26 +42,39 @@ std::string values_text(const Column& c, const StudyFindings& f) {
                      unit);
 }
 
+/// What the settings of an input are, each once, without the values that they may have, and their
+/// names.
+std::string meanings_of(const Plan& plan, const std::vector<std::string>& settings) {
+  std::vector<std::string> found;
+  for (const std::string& setting : settings) {
+    std::string text = setting_meaning(plan, setting);
+    text = text.substr(0, text.find(" (allowed"));
+    if (!text.empty() && std::find(found.begin(), found.end(), text) == found.end())
+      found.push_back(std::move(text));
+  }
+  return xml_text(fmt::format("{}", fmt::join(found, "; "))) + (found.empty() ? "" : "<br>") +
+         "<code>" + xml_text(fmt::format("{}", fmt::join(settings, ", "))) + "</code>";
+}
+
 std::string inputs_table(const Plan& plan, const Table& table, const StudyFindings& f) {
   std::string rows;
   for (const Input& input : plan.inputs) {
     const Column* c = table.find(input.name);
     if (!c) continue;
     rows += fmt::format(
-        "<tr><td class='word'>{}</td><td class='word'>{}{}</td><td class='word'><code>{}</code>"
-        "</td></tr>",
-        xml_text(input.name), xml_text(values_text(*c, f)), input.sampled ? ", sampled" : "",
-        xml_text(fmt::format("{}", fmt::join(input.settings, ", "))));
+        "<tr><td class='word'>{}</td><td class='word'>{}</td><td class='word'>{}{}</td></tr>",
+        xml_text(input.name), meanings_of(plan, input.settings), xml_text(values_text(*c, f)),
+        input.sampled ? ", sampled" : "");
   }
   for (const Column& c : table.columns)
     if (c.role == Role::disturbance && c.name.starts_with("disturbed:"))
       rows += fmt::format(
-          "<tr><td class='word'>disturbed by repeats</td><td class='word'>by what means nothing to "
-          "the dam</td><td class='word'><code>{}</code></td></tr>",
-          xml_text(c.name.substr(c.name.find(':') + 1)));
+          "<tr><td class='word'>disturbed by repeats</td><td class='word'>{}</td><td "
+          "class='word'>by what means nothing to the dam</td></tr>",
+          meanings_of(plan, {c.name.substr(c.name.find(':') + 1)}));
   if (rows.empty()) return "";
-  return "<div class='wide'><table><tr><th class='word'>input</th><th class='word'>values</th>"
-         "<th class='word'>setting</th></tr>" +
+  return "<div class='wide'><table><tr><th class='word'>input</th><th class='word'>what it is</th>"
+         "<th class='word'>values</th></tr>" +
          rows + "</table></div>";
 }
 

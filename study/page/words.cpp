@@ -1,7 +1,9 @@
 #include "study/page/words.hpp"
 
 #include "core/xml_text.hpp"
+#include "study/page/consequences.hpp"
 #include "study/page/labels.hpp"
+#include "study/page/meanings.hpp"
 #include "study/statistics/summary.hpp"
 
 #include <algorithm>
@@ -47,7 +49,10 @@ std::string how_far(const Plan& plan, const Table& table, const StudyFindings& f
   const Exceedance& all = f.exceedance[0];
   const std::string name = plain(table, result);
   if (all.value.empty()) return item("No row has told yet.");
+  const auto known = meaning_of(result);
   std::string text =
+      known ? item(fmt::format("The {}: {}.", name, xml_text(known->definition))) : "";
+  text +=
       item(fmt::format("Half of the rows have a {} above <b>{}</b>, one in twenty above <b>{}</b>.",
                        name, with_unit(table, result, weighted_quantile(all, 0.5)),
                        with_unit(table, result, weighted_quantile(all, 0.95))));
@@ -64,9 +69,8 @@ std::string how_far(const Plan& plan, const Table& table, const StudyFindings& f
       if (is_set(number[row]) && (largest == plan.rows.size() || number[row] > number[largest]))
         largest = row;
   if (largest < plan.rows.size())
-    text +=
-        item(fmt::format("The largest is {}, in row {}.", with_unit(table, result, number[largest]),
-                         xml_text(fmt::format("{}", plan.rows[largest].label()))));
+    text += item(fmt::format("The largest is {}, in {}.", with_unit(table, result, number[largest]),
+                             xml_text(row_title(plan.rows[largest]))));
   return text + outcomes(table, f);
 }
 
@@ -231,9 +235,14 @@ std::string warnings(const Table& table) {
     return "<p class='quiet'>No stage of this study warned of anything.</p>";
   std::string text =
       "<section class='warnings' id='warnings'><h2>Read this before using the numbers</h2><ul>";
-  for (const TableWarning& w : table.warnings)
-    text += fmt::format("<li>{}: {} <span class='note'>({} row{})</span></li>", xml_text(w.stage),
-                        xml_text(w.text), w.rows, w.rows == 1 ? "" : "s");
+  for (const TableWarning& w : table.warnings) {
+    const std::string_view meaning = consequence_of(w.text);
+    text += fmt::format("<li><b>In {} of {} rows</b>, {}: {}", w.in.size(), table.rows,
+                        xml_text(w.stage), xml_text(w.text));
+    if (!meaning.empty()) text += fmt::format(" <span class='means'>{}</span>", xml_text(meaning));
+    text += fmt::format(" <span class='note'>Row{} {}.</span></li>", w.in.size() == 1 ? "" : "s",
+                        spans_of(w.in));
+  }
   return text + "</ul></section>";
 }
 

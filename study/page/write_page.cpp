@@ -89,8 +89,9 @@ void write_tables(const fs::path& folder, const Plan&, const Table& table) {
 void write_page(const fs::path& folder, const Plan& plan, const Table& table,
                 const std::atomic<bool>* stop) {
   const StudyFindings findings = analyse(plan, table, stop);
-  const Page page =
-      make_page(plan, table, findings, {read_sessions(folder), pages(folder, plan, table), {}});
+  StudyAbout about{read_sessions(folder), pages(folder, plan, table)};
+  about.stories = read_stories(folder, table, about.reports, stop);
+  const Page page = make_page(plan, table, findings, about);
   const fs::path figures = folder / "figures", analysis = folder / "analysis.json";
   std::error_code error;
   if (fs::is_symlink(fs::symlink_status(figures, error)))
@@ -111,7 +112,8 @@ void write_page(const fs::path& folder, const Plan& plan, const Table& table,
 
 WholePage write_whole_page(const fs::path& folder, const Plan& plan, const Table& table,
                            const WholeSize& size, const std::atomic<bool>* stop) {
-  StudyAbout about{read_sessions(folder), pages(folder, plan, table), {}};
+  StudyAbout about{read_sessions(folder), pages(folder, plan, table)};
+  about.stories = read_stories(folder, table, about.reports, stop);
   WholePage whole{
       .path = folder / "study-whole.html", .not_done = {}, .no_report = {}, .not_kept = {}};
   const Column* state = table.find("state");

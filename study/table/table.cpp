@@ -145,12 +145,14 @@ class Builder {
   }
 
   /// Of its settings, and of what it found.
-  void add_warnings(const WorkflowStage& stage, const StageRecord& result) {
+  void add_warnings(std::size_t row, const WorkflowStage& stage, const StageRecord& result) {
     for (const std::string& text : warnings_of(stage, &result)) {
       const auto [it, is_new] =
           warning_.try_emplace(stage.name + without_numbers(text), table_.warnings.size());
-      if (is_new) table_.warnings.push_back({stage.name, text, 0});
-      ++table_.warnings[it->second].rows;
+      if (is_new) table_.warnings.push_back({stage.name, text, 0, {}});
+      TableWarning& w = table_.warnings[it->second];
+      ++w.rows;
+      if (w.in.empty() || w.in.back() != row) w.in.push_back(row);
     }
   }
 
@@ -162,7 +164,7 @@ class Builder {
       for (const std::size_t n : plan_.rows[r].nodes) {
         const auto& finished = progress_.node(n).finished;
         if (!finished) continue;
-        add_warnings(plan_.nodes[n].stage, finished->record);
+        add_warnings(r, plan_.nodes[n].stage, finished->record);
         for (const auto& [name, value] : flat_facts(finished->record.facts)) {
           auto [it, is_new] = columns.try_emplace(name);
           Column& c = it->second;

@@ -28,6 +28,7 @@ inline constexpr std::size_t kNoNode = std::numeric_limits<std::size_t>::max();
 struct TableWarning {
   std::string stage, text;
   std::size_t rows = 0;
+  std::vector<std::size_t> in;  ///< those rows, from 0
 };
 
 struct Table {

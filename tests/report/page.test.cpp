@@ -4,6 +4,7 @@
 #include "report/markdown_html.hpp"
 #include "report/page_arrays.hpp"
 #include "report/page_points.hpp"
+#include "report/page_read.hpp"
 #include "report/page_thin.hpp"
 #include "tests/report/dam_case.hpp"
 #include "tests/support/scratch.hpp"
@@ -374,6 +375,31 @@ TEST_CASE("A player with fewer states shows those that are left as before", "[re
   std::string damaged = full;
   damaged.replace(damaged.find("id=\"arrays\">") + 13, 40, 40, 'A');
   CHECK_THROWS_AS(thinned_page(damaged, 2), InputError);
+}
+
+TEST_CASE("A page of a run is read back", "[report]") {
+  const std::string html = PageCase().page();
+  const auto run_json = json::parse(between(html, "id=\"run\">", "</script>"));
+  const auto stored = unpacked(run_json["arrays"], between(html, "id=\"arrays\">", "</script>"));
+  const auto run = read_page(html, [](std::string_view name) { return name != "points.x"; });
+  REQUIRE(run);
+  CHECK(run->toe == dam_case::kToe);
+  CHECK(run->front == Approx(run_json["front_m"].get<double>()));
+  CHECK(run->windows == std::vector<std::string>{"crest", "pond"});
+  // beneath the pond, which stands at 30
+  CHECK(run->water.front()[1] == Approx(30.0).margin(0.01));
+  CHECK(run->array("points.x").empty());
+  for (const char* name : {"flow.front", "mesh.x", "zone.depth1", "mesh.corners"}) {
+    REQUIRE(run->array(name).size() == stored.at(name).size());
+    for (std::size_t i = 0; i < stored.at(name).size(); ++i)
+      CHECK(run->array(name)[i] == Approx(stored.at(name)[i]));
+  }
+  CHECK(run->array("flow.front").front() == Approx(dam_case::kToe).margin(15.0));
+  const auto any = [](std::string_view) { return true; };
+  CHECK_FALSE(read_page("<p>another page</p>", any));
+  std::string damaged = html;
+  damaged.replace(damaged.find("id=\"arrays\">") + 13, 40, 40, 'A');
+  CHECK_THROWS_AS(read_page(damaged, any), InputError);
 }
 
 TEST_CASE("Child of the browser test: writes a page", "[.page-child]") {

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Opens the page of a report in a headless Chromium: page_browser.py TEST_REPORT [PICTURES].
+"""Opens the page of a report in a headless Chromium: page_browser.py TEST_REPORT [PICTURES [--write]].
 
 TEST_REPORT is the program test_report, which writes a page of a known run; with PICTURES, a folder,
-what was seen is left there as PNG. Ends with 77, skipped, where there is no Chromium.
+what was seen is left there as PNG; with --write fixtures/pictures is written anew, after a change
+that was looked at. Ends with 77, skipped, where there is no Chromium.
 """
 import os
 import pathlib
@@ -11,6 +12,7 @@ import sys
 import tempfile
 
 from browser import Browser, find_chromium
+from pictures import Pictures
 
 TITLE = 'Dam <of> the "test" & more'
 failures = []
@@ -96,7 +98,27 @@ def check_player(page):
     expect(f"a point tells its values ({tip})", "displacement" in tip)
 
 
-def main(program, pictures=None):
+HIDE = "document.styleSheets[0].insertRule('%s { visibility: hidden; }')"
+SEEN = {"flow": "#player canvas", "section": "#section canvas", "runout": ".panel svg.chart"}
+
+
+def look(page, path, write):
+    looks = Pictures("report", expect, write)
+    for name, width, dark, phone in (("desktop", 1280, False, False), ("phone", 390, False, True),
+                                     ("dark", 1280, True, False)):
+        page.open(path, width, dark=dark, phone=phone)
+        for title, selector in SEEN.items():
+            looks.look(page, f"{name}, {title}", selector)
+    looks.save()
+    page.open(path, 1280)
+    # Controls: a page whose chart, or whose flow, is missing.
+    looks.control(page, "desktop, runout", SEEN["runout"], "no curve",
+                  HIDE % ".panel path.line")
+    looks.control(page, "desktop, flow", SEEN["flow"], "nothing in it",
+                  HIDE % "#player canvas")
+
+
+def main(program, pictures=None, write=None):
     chromium = find_chromium()
     if not chromium:
         print("no Chromium (Debian: chromium): the page of the report is not opened")
@@ -115,6 +137,7 @@ def main(program, pictures=None):
                 check_text(page)
                 if pictures:
                     page.picture(pathlib.Path(pictures, f"{name}.png"))
+            look(page, path, write == "--write")
             page.open(path, 1280)
             check_charts(page)
             check_player(page)

@@ -87,6 +87,7 @@ TEST_CASE("The chart of a page has the table's numbers, and which rows are repea
   const auto data = nlohmann::json::parse(
       explorer_json(e.plan, e.table, analyse(e.plan, e.table), e.about, {"factor", "sum", "one"}));
   CHECK(data["labels"].size() == 24);
+  CHECK(data["labels"][4] == "row 5: one a, factor 2, repeat 1");
   CHECK(data["pages"][4] == "run.html");
   CHECK(data["pages"][5] == "");
   // three repeats of each of eight rows
@@ -102,6 +103,16 @@ TEST_CASE("The chart of a page has the table's numbers, and which rows are repea
   CHECK(one["words"] == nlohmann::json{"a", "b", "</script>", "d"});
   CHECK(one["values"][6] == 1);
   CHECK(data["start"]["colour"] == "one");
+}
+
+TEST_CASE("Rows whose page cannot be read are told", "[study]") {
+  Explored e;
+  CHECK_THAT(e.page(), !Contains("are damaged"));
+  e.about.stories = Stories{};
+  e.about.stories->json = "{}";
+  CHECK_THAT(e.page(), !Contains("are damaged"));
+  e.about.stories->damaged = {3, 4, 7};
+  CHECK_THAT(e.page(), Contains("are not shown: 4 to 5, 8. Make their reports again."));
 }
 
 TEST_CASE("A label of a user ends no script of the page", "[study]") {
@@ -192,6 +203,8 @@ TEST_CASE("Child of the browser test: writes the page of a study", "[.page-child
   Explored e;
   for (std::size_t row = 0; row < e.table.rows; ++row)
     e.about.reports[row] = row < 6 ? "" : row % 2 ? "long.html" : "short.html";
+  e.about.stories =
+      read_stories(std::filesystem::path(out).parent_path(), e.table, e.about.reports);
   if (std::getenv("FLOWSLIDE_WHOLE"))
     e.about.embedded = embed_runs(std::filesystem::path(out).parent_path(), e.about.reports);
   std::ofstream(out) << e.page();

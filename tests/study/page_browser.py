@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Opens the page of a study in a headless Chromium: page_browser.py TEST_STUDY TEST_REPORT [PICTURES].
+"""Opens the page of a study in a headless Chromium: page_browser.py TEST_STUDY TEST_REPORT [PICTURES [--write]].
 
 TEST_STUDY writes a page of known rows, TEST_REPORT the pages of two runs of other lengths beside it;
-with PICTURES, a folder, what was seen is left there as PNG. Ends with 77, skipped, where there is no
+with PICTURES, a folder, what was seen is left there as PNG, and with --write fixtures/pictures is
+written anew, after a change that was looked at. Ends with 77, skipped, where there is no
 Chromium.
 """
 import os
@@ -14,6 +15,7 @@ import tempfile
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "report"))
 sys.dont_write_bytecode = True
 from browser import Browser, find_chromium  # noqa: E402
+from pictures import Pictures  # noqa: E402
 
 DOTS = "document.querySelectorAll('.scatter circle.dot:not(g[transform] circle)')"
 failures = []
@@ -62,6 +64,62 @@ def show_explorer(page):
     """A finger touches what was drawn last: wait for it."""
     page.run("document.getElementById('explore').scrollIntoView({behavior: 'instant'})")
     page.run("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+
+def check_section(page):
+    """The section of dam_case, whose toe is at 75 m, and the fronts of its runs beneath it."""
+    soils = page.run("document.querySelectorAll('#fronts path.soil').length")
+    expect(f"soils are drawn ({soils})", soils == 3)
+    key = page.run("document.querySelector('.soilkey').textContent")
+    expect(f"and named: {key}", "soil 1" in key and "water" in key)
+    rugs = page.run("document.querySelectorAll('#fronts line.rug').length")
+    expect(f"each run with a page is a stroke ({rugs})", rugs == 18)
+    expect("the toe is marked", page.run(
+        "[...document.querySelectorAll('#fronts text')].some(e => e.textContent === 'toe')"))
+    # Control of the scale: the mesh ends 10 m beyond the toe.
+    far = page.run("(() => { const of = (s) => document.querySelector(s).getBoundingClientRect(); "
+                   "const soils = [...document.querySelectorAll('#fronts path.soil')].map(e => "
+                   "e.getBoundingClientRect()); const left = Math.min(...soils.map(b => b.left)), "
+                   "right = Math.max(...soils.map(b => b.right)); "
+                   "const toe = of('#fronts line.mark').left; return (right - toe) / (right - left); })()")
+    expect(f"the toe is in its place ({far:.4f})", abs(far - 10 / 225) < 0.004)
+    page.run("document.querySelector('svg.fronts').focus()")
+    page.key("ArrowRight")
+    tip = page.run("document.querySelector('#fronts .tip').innerText")
+    told = page.run("JSON.parse(document.getElementById('stories').textContent).fronts[6] - 75")
+    expect(f"a run tells its runout ({tip!r})", "factor" in tip and f"{told:.1f}" in tip)
+
+
+def check_strands(page):
+    """The histories of 18 rows with pages, of two kinds that end after 20 and 40 s."""
+    page.wait("document.querySelector('#strands path.strand') !== null")
+    paths = "document.querySelectorAll('#strands path.strand').length"
+    expect(f"runs that share a history share a curve ({page.run(paths)})", page.run(paths) == 2)
+    names = page.run("[...document.querySelectorAll('#strands select')[0].options].map(o => o.value)")
+    expect(f"charts: {names}", names == ["runout", "depth crest", "depth pond", "crest down",
+                                         "crest across", "spectrum"])
+    page.run("document.querySelector('svg.strands').focus()")
+    page.key("ArrowRight")
+    tip = page.run("document.querySelector('#strands .tip').innerText")
+    expect(f"a curve tells its rows ({tip!r})", "row 7: " in tip or "row 8: " in tip)
+    expect("and how many share it", "and 8 more with the same" in tip)
+    grey = "document.querySelectorAll('#strands path.off').length"
+    page.run("document.querySelector('#rows tr[data-row=\"6\"] td').click()")
+    expect("a click on a row lets the others become grey", page.run(grey) == 1)
+    expect("and marks it", page.run("document.querySelectorAll('#rows tr.on').length") == 1)
+    told = page.run("document.querySelector('#strands .picked').innerText")
+    expect(f"and names it ({told})", told.startswith("row 7: "))
+    page.run("document.querySelector('#strands .picked button').click()")
+    expect("it can be let go", page.run(grey) == 0)
+    for name in names:
+        page.run("(() => { const s = document.querySelector('#strands select'); "
+                 f"s.value = '{name}'; s.dispatchEvent(new Event('change')); }})()")
+        longest = page.run("Math.max(...[...document.querySelectorAll('#strands path.strand')]"
+                           ".map(p => p.getTotalLength()))")
+        expect(f"{name} is drawn ({longest:.0f})", longest > 100)
+    # Known: the motion of the pages has its acceleration of 2 m/s2 in a period of 0.63 s.
+    expect("a spectrum has periods", "period" in page.run(
+        "[...document.querySelectorAll('#strands text.label')].map(e => e.textContent).join()"))
 
 
 def check_explorer(page):
@@ -161,9 +219,16 @@ def check_opening(page):
     page.point_at(x, y)
     tip = page.run("document.querySelector('.scatter .tip').innerText")
     expect(f"a point tells its row and values ({tip!r})",
-           "one </script>, factor 1" in tip and "5 \u00b1 0.005" in tip and "mean of 3" in tip)
+           "row 13: one </script>, factor 1" in tip and "5 \u00b1 0.005" in tip and "mean of 3" in tip)
     click(page, x, y)
-    expect("a click opens its run", frame_source(page, "left").endswith("short.html#the-flow"))
+    expect("a click opens its run", "/short.html?row=row+13" in frame_source(page, "left")
+           and frame_source(page, "left").endswith("#the-flow"))
+    which = page.run("document.querySelector('[data-side=left]').textContent")
+    expect(f"above it stands which row it is ({which})",
+           which == "row 13: one </script>, factor 1")
+    said = page.wait_in("left", "document.querySelector('.of-row')?.textContent")
+    expect(f"and in its own heading ({said})", said == which)
+    expect("and in its title", page.run_in("left", "document.title").startswith("row 13: "))
     expect("on the left alone", frame_source(page, "right") == "")
     expect("and is told to be below the chart", page.run(
         "document.querySelector('.chosen a[href=\"#side-by-side\"]').innerText")
@@ -172,7 +237,7 @@ def check_opening(page):
     page.key("End")
     page.call("Input.dispatchKeyEvent", type="keyDown", key="Enter", code="Enter", modifiers=8)
     page.call("Input.dispatchKeyEvent", type="keyUp", key="Enter", code="Enter", modifiers=8)
-    expect("Shift and Enter open on the right", "html#the-flow" in frame_source(page, "right"))
+    expect("Shift and Enter open on the right", "#the-flow" in frame_source(page, "right"))
     expect("what is open is marked", page.run(
         "[...document.querySelectorAll('.scatter .opentext')].map(e => e.textContent).join()")
         == "left,right")
@@ -189,7 +254,7 @@ def check_touch(page):
     expect(f"a finger chooses a point ({told})", "factor 1" in told and "left right" in told)
     expect("and opens nothing by itself", frame_source(page, "left") == "")
     page.run("document.querySelectorAll('.chosen button')[1].click()")
-    expect("its buttons do", "html#the-flow" in frame_source(page, "right"))
+    expect("its buttons do", "#the-flow" in frame_source(page, "right"))
     expect("beside nothing too wide", page.run(
         "document.documentElement.scrollWidth <= innerWidth"))
 
@@ -306,6 +371,8 @@ def check_whole(page):
     expect("a click on a point opens another", "</script>" in page.run(
         "document.querySelector('[data-side=left]').textContent"))
     top = "document.getElementById('histories').getBoundingClientRect().top"
+    expect("with its row in its heading", page.run_in(
+        "left", "document.querySelector('.of-row').textContent").startswith("row 13: "))
     expect("at its flow", 0 <= page.run_in("left", top.replace("histories", "the-flow")) < 100)
     expect("not at its histories", page.run_in("left", top) > 300)
     page.run_in("left", "document.querySelector('nav a[href=\"#histories\"]').click()")
@@ -314,11 +381,43 @@ def check_whole(page):
     page.run("document.querySelector('#rows a[target=_blank]').click()", userGesture=True)
     page.wait("window.tab?.document.documentElement?.dataset.ready")
     expect("a run has a tab of its own", page.run("tab.document.documentElement.dataset.ready")
-           == "yes" and "</script>" not in page.run("tab.document.title"))
+           == "yes")
+    told = page.run("tab.document.querySelector('.of-row').textContent")
+    expect(f"and its row ({told})", told.startswith("row 7: ") and told in page.run(
+        "tab.document.title"))
     page.run("tab.close()")
 
 
-def main(test_study, test_report, pictures=None):
+HIDE = "document.styleSheets[0].insertRule('%s { visibility: hidden; }')"
+SEEN = {"section and fronts": "svg.fronts", "chart of points": ".scatter svg",
+        "histories": "svg.strands", "tornado": "#charts figure svg"}
+
+
+def look(page, folder, write):
+    """What the charts look like; and that a page without one, or with another, would be seen."""
+    looks = Pictures("study", expect, write)
+    for name, width, dark, phone in (("desktop", 1280, False, False), ("phone", 390, False, True),
+                                     ("dark", 1280, True, False)):
+        page.open(folder / "study.html", width, dark=dark, phone=phone)
+        page.wait("document.querySelector('#strands path.strand') !== null")
+        for title, selector in SEEN.items():
+            looks.look(page, f"{name}, {title}", selector)
+    looks.save()
+    page.open(folder / "study.html", 1280)
+    page.wait("document.querySelector('#strands path.strand') !== null")
+    for title, selector in SEEN.items():
+        looks.control(page, f"desktop, {title}", selector, "left and right exchanged",
+                      f"document.querySelector('{selector}').style.transform = 'scaleX(-1)'")
+        page.run(f"document.querySelector('{selector}').style.transform = ''")
+    dots = SEEN["chart of points"]
+    looks.control(page, "desktop, chart of points", dots, "no points",
+                  HIDE % ".scatter circle")
+    for title, selector in SEEN.items():
+        looks.control(page, f"desktop, {title}", selector, "nothing in it",
+                      HIDE % selector)
+
+
+def main(test_study, test_report, pictures=None, write=None):
     chromium = find_chromium()
     if not chromium:
         print("no Chromium (Debian: chromium): the page of a study is not opened")
@@ -337,9 +436,12 @@ def main(test_study, test_report, pictures=None):
                     "document.documentElement.scrollWidth <= innerWidth"))
                 if pictures:
                     page.picture(pathlib.Path(pictures, f"study-{name}.png"))
+            look(page, folder, write == "--write")
             page.open(folder / "study.html", 390, phone=True)
             check_touch(page)
             page.open(folder / "study.html", 1280)
+            check_section(page)
+            check_strands(page)
             check_explorer(page)
             check_choices(page)
             check_zoom(page)

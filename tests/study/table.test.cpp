@@ -126,7 +126,7 @@ TEST_CASE("The page answers in words, warns, and leads to the runs", "[study]") 
   const Plan plan = bench.plan(kStudy);
   bench.run(plan);
   Table table = make_table(plan, bench.progress(plan));
-  table.warnings = {{"count", "beyond <1> & 2", 3}};
+  table.warnings = {{"count", "beyond <1> & 2", 3, {0, 1, 2}}};
   const StudyFindings findings = analyse(plan, table);
   StudyAbout about;
   about.reports.resize(table.rows);
@@ -136,7 +136,8 @@ TEST_CASE("The page answers in words, warns, and leads to the runs", "[study]") 
   CHECK_THAT(html, Contains("Half of the rows have a sum above <b>6</b>") &&
                        Contains("Numerics alone move one row by") &&
                        Contains("<b>factor</b>: 4.5 on average at 1, 9 at 2: +4.5 ("));
-  CHECK_THAT(html, Contains("count: beyond &lt;1&gt; &amp; 2 <span class='note'>(3 rows)"));
+  CHECK_THAT(html,
+             Contains("count: beyond &lt;1&gt; &amp; 2 <span class='note'>Rows 1 to 3.</span>"));
   CHECK_THAT(html, Contains("href='stages/report/a/report/report.html#the-flow' target='left'"));
   CHECK_THAT(make_page(plan, table, findings).html, !Contains("<iframe"));
 }

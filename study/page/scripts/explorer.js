@@ -182,7 +182,7 @@ class Explorer {
   tellMissing(missing) {
     const { rows } = this;
     if (!missing.length) return this.missing.replaceChildren();
-    const names = missing.map((row) => make("li", {}, `row ${row + 1}: ${rows.labels[row]}`));
+    const names = missing.map((row) => make("li", {}, rows.labels[row]));
     this.missing.replaceChildren(
       make(
         "details",

@@ -25,11 +25,19 @@ class Runs {
     const row = +link.dataset.row,
       side = SIDES.find((s) => s === link.target),
       apart = !side || event.ctrlKey || event.metaKey;
-    if (apart && !this.embedded) return; // the browser opens it
+    if (apart && !this.embedded) {
+      link.href = this.address(row); // the browser opens it
+      return;
+    }
     event.preventDefault();
     if (apart) return void this.openApart(row);
     this.open(row, side);
     this.box.scrollIntoView({ block: "nearest" });
+  }
+
+  /** Of a page beside this file, which says of which row it is. */
+  address(row, place = "") {
+    return `${this.pages[row]}?${new URLSearchParams({ row: this.labels[row] })}${place}`;
   }
 
   frame(side) {
@@ -43,7 +51,7 @@ class Runs {
     this.box.hidden = false;
     words.textContent = this.labels[row];
     this.onOpen();
-    const address = `${this.pages[row]}#the-flow`;
+    const address = this.address(row, "#the-flow");
     if (!this.embedded && frame.getAttribute("src") === address) return; // it is there
     this.together.forget(side);
     if (!this.embedded) {
@@ -55,6 +63,7 @@ class Runs {
       if (this.rows[side] !== row) return; // another one was chosen meanwhile
       const arrived = () => {
         keepInside(frame.contentDocument);
+        tellRow(frame.contentDocument, this.labels[row]);
         frame.contentDocument.getElementById("the-flow")?.scrollIntoView();
       };
       frame.addEventListener("load", arrived, { once: true });
@@ -72,6 +81,7 @@ class Runs {
     tab.document.write(parts.join(""));
     tab.document.close();
     keepInside(tab.document);
+    tellRow(tab.document, this.labels[row]);
   }
 }
 
