@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <omp.h>
-
 namespace flowslide::fem {
 
 void deform(Solver& s, std::int32_t begin, std::int32_t end, double& largest) {
@@ -36,31 +34,13 @@ void deform(Solver& s, std::int32_t begin, std::int32_t end, double& largest) {
 
 namespace {
 
-/// What a thread takes of the elements of law M.
-template <class M>
-class Taker {
- public:
-  Taker(const Layout& layout, StressQueue& queue)
-      : layout_(layout), queue_(queue), share_(omp_get_thread_num() % queue.shares) {}
-
-  /// The next elements that no thread has taken, `block` of them at most; false at the end.
-  bool take(std::size_t block, std::size_t& begin, std::size_t& end) {
-    for (; visited_ < queue_.shares; ++visited_, share_ = (share_ + 1) % queue_.shares) {
-      const std::size_t last = queue_.begin_of(layout_, kLaw, share_ + 1);
-      std::atomic<std::int32_t>& taken = queue_.share[share_].taken[kLaw];
-      begin = static_cast<std::size_t>(taken.fetch_add(static_cast<std::int32_t>(block)));
-      end = std::min(last, begin + block);
-      if (begin < last) return true;
-    }
-    return false;
-  }
-
- private:
-  static constexpr std::size_t kLaw = ShakingLaws::index<M>();
-  const Layout& layout_;
-  StressQueue& queue_;
-  int share_, visited_ = 0;
-};
+/// The next elements of a law that no thread has taken, `block` of them at most; false at the end.
+bool take(std::atomic<std::int32_t>& taken, std::size_t last, std::size_t block, std::size_t& begin,
+          std::size_t& end) {
+  begin = static_cast<std::size_t>(taken.fetch_add(static_cast<std::int32_t>(block)));
+  end = std::min(last, begin + block);
+  return begin < last;
+}
 
 StrainIncrement<2> strain_of(const Solver& s, std::size_t e) {
   const double* d = &s.strain[3 * e];
@@ -70,10 +50,10 @@ StrainIncrement<2> strain_of(const Solver& s, std::size_t e) {
 /// Elements of a law that integrates many points at a time.
 template <class M>
 requires requires { typename M::Task; }
-Counters update_law(Solver& s, Taker<M> taker) {
+Counters update_law(Solver& s, std::atomic<std::int32_t>& taken, std::size_t last) {
   std::size_t e = 0, end = 0;
   const auto next = [&](typename M::Task& task) {
-    if (e == end && !taker.take(kPackLanes, e, end)) return false;
+    if (e == end && !take(taken, last, kPackLanes, e, end)) return false;
     task = {&constants_of<M>(s, s.layout.material[e]), &state_of<M>(s, e), &s.state.stress[e],
             strain_of(s, e)};
     ++e;
@@ -84,8 +64,8 @@ Counters update_law(Solver& s, Taker<M> taker) {
 }
 
 template <class M>
-Counters update_law(Solver& s, Taker<M> taker) {
-  for (std::size_t e, end; taker.take(kChunk, e, end);)
+Counters update_law(Solver& s, std::atomic<std::int32_t>& taken, std::size_t last) {
+  for (std::size_t e, end; take(taken, last, kChunk, e, end);)
     for (; e < end; ++e) {
       typename M::State& state = state_of<M>(s, e);
       const auto r = M::update(constants_of<M>(s, s.layout.material[e]), state, s.state.stress[e],
@@ -110,21 +90,15 @@ void yield_hourglass(Solver& s, std::size_t e) {
 
 }  // namespace
 
-StressQueue::StressQueue(const Layout& l, int threads) : shares(std::min(threads, kMostShares)) {
-  for (int k = 0; k < shares; ++k)
-    for (std::size_t law = 0; law < ShakingLaws::size; ++law)
-      share[k].taken[law] = static_cast<std::int32_t>(begin_of(l, law, k));
-}
-
-std::size_t StressQueue::begin_of(const Layout& l, std::size_t law, int at) const {
-  const std::size_t first = l.law_begin[law], count = l.law_begin[law + 1] - first;
-  return first + count * static_cast<std::size_t>(at) / static_cast<std::size_t>(shares);
+StressQueue::StressQueue(const Layout& l) {
+  for (std::size_t k = 0; k < taken.size(); ++k)
+    taken[k] = static_cast<std::int32_t>(l.law_begin[k]);
 }
 
 void update_stresses(Solver& s, StressQueue& queue) {
   Counters sum;
-  each_law(s.layout, 0, s.layout.elements.size(), [&]<class M>(std::size_t, std::size_t) {
-    const Counters c = update_law<M>(s, Taker<M>(s.layout, queue));
+  each_law(s.layout, 0, s.layout.elements.size(), [&]<class M>(std::size_t, std::size_t last) {
+    const Counters c = update_law<M>(s, queue.taken[ShakingLaws::index<M>()], last);
     sum.sub_steps += c.sub_steps;
     sum.rejected += c.rejected;
     sum.floored += c.floored;

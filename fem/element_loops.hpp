@@ -13,19 +13,10 @@ inline constexpr double kLargestStrainStep = 0.2;  ///< beyond it small strains 
 /// increment.
 void deform(Solver& s, std::int32_t begin, std::int32_t end, double& largest);
 
-/// Elements of each law that have been taken by a thread. Each thread has a share that it takes
-/// from first, so that a state stays near the core that had it in the last step; who is done takes
-/// from the others' shares.
+/// Elements of each law that have been taken by a thread, from the first one on.
 struct StressQueue {
-  static constexpr int kMostShares = 64;
-  struct alignas(64) Share {
-    std::array<std::atomic<std::int32_t>, ShakingLaws::size> taken;  ///< next element of each law
-  };
-  StressQueue(const Layout& l, int threads);
-  /// First element of a share of a law's elements.
-  [[nodiscard]] std::size_t begin_of(const Layout& l, std::size_t law, int share) const;
-  int shares;
-  std::array<Share, kMostShares> share;
+  explicit StressQueue(const Layout& l);
+  std::array<std::atomic<std::int32_t>, ShakingLaws::size> taken;
 };
 
 /// Strain increments to stresses and states of the laws. To be called by all threads of a parallel

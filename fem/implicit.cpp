@@ -7,8 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include <omp.h>
-
 namespace flowslide::fem {
 namespace {
 
@@ -90,7 +88,7 @@ bool ImplicitSteps::follow_soil(Solver& s) {
     largest = std::max(largest, s.element_sums[c].largest_strain);
   }
   if (!(largest <= kLargestStrainStep)) return false;
-  StressQueue queue(s.layout, omp_get_max_threads());
+  StressQueue queue(s.layout);
 #pragma omp parallel
   {
     update_stresses(s, queue);

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <omp.h>
-
 namespace flowslide::fem {
 namespace {
 
@@ -85,18 +83,6 @@ void add_energy(Solver& s) {
   pending = {0.5 * s.dt * after.damping, 0.5 * s.dt * after.weight, 0.5 * s.dt * after.base};
 }
 
-/// New pore pressures from what the elements press to their nodes.
-void move_water(Solver& s) {
-  if (s.water.num_equations == 0) return;
-  for (std::int32_t q = 0; q < s.water.num_equations; ++q)
-    s.pressure_rate[q] = s.water.flow.sum(q, s.entry_flow.data());
-  s.water.factor.solve(s.pressure_rate.data());
-  for (std::size_t i = 0; i < s.state.pressure.size(); ++i) {
-    const std::int32_t q = s.water.equation[i];
-    if (q < s.water.num_equations) s.state.pressure[i] += s.dt * s.pressure_rate[q];
-  }
-}
-
 }  // namespace
 
 void start_motion(Solver& s) {
@@ -112,7 +98,7 @@ void advance(Solver& s, const BaseMotion& base) {
   const auto end_of = [](std::int32_t c, std::int32_t n) { return std::min(n, (c + 1) * kChunk); };
   if (s.water.factor_dt != s.dt) factorise(s.water, s.layout, s.dt);
   if (s.state.step == 0) s.state.last_dt = s.dt;
-  StressQueue queue(s.layout, omp_get_max_threads());
+  StressQueue queue(s.layout);
 #pragma omp parallel
   {
 #pragma omp for schedule(static)
@@ -126,8 +112,17 @@ void advance(Solver& s, const BaseMotion& base) {
       flow(s, begin, end);
       s.element_sums[c] = sums;
     }
+#pragma omp for schedule(static)
+    for (std::int32_t q = 0; q < s.water.num_equations; ++q)
+      s.pressure_rate[q] = s.water.flow.sum(q, s.entry_flow.data());
 #pragma omp single nowait
-    move_water(s);
+    if (s.water.num_equations > 0) {
+      s.water.factor.solve(s.pressure_rate.data());
+      for (std::size_t i = 0; i < s.state.pressure.size(); ++i) {
+        const std::int32_t q = s.water.equation[i];
+        if (q < s.water.num_equations) s.state.pressure[i] += s.dt * s.pressure_rate[q];
+      }
+    }
     // beside the water, which does not hang on them
     update_stresses(s, queue);
 #pragma omp barrier
