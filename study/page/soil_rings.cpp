@@ -25,7 +25,7 @@ std::set<Edge> boundary(const std::vector<std::array<std::size_t, 4>>& elements)
   return edges;
 }
 
-std::vector<std::vector<std::size_t>> chains(std::set<Edge> edges) {
+std::vector<std::vector<std::size_t>> chains(const std::set<Edge>& edges) {
   std::map<std::size_t, std::set<std::size_t>> next;
   for (const auto& [a, b] : edges) {
     next[a].insert(b);
