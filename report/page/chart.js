@@ -342,10 +342,7 @@ class Chart {
     this.at = at;
     if (!own) return;
     this.tip.replaceChildren(make("div", { class: "head" }, number(at, this.x.unit)), ...rows);
-    const width = this.plot.clientWidth,
-      right = px > width / 2;
-    this.tip.style.left = right ? "" : `${px + 12}px`;
-    this.tip.style.right = right ? `${width - px + 12}px` : "";
+    putTip(this.tip, this.plot.clientWidth, px);
   }
   pointAll(at) {
     for (const chart of this.group ? groups.get(this.group) : [this])
@@ -360,7 +357,7 @@ class Chart {
 
   listen() {
     let from = null;
-    const place = (event) => event.clientX - this.svg.getBoundingClientRect().left;
+    const place = (event) => placeIn(this.svg, event)[0];
     this.tip.hidden = true;
     this.svg.addEventListener("pointerdown", (event) => {
       if (event.pointerType === "mouse" && event.button === 0) from = place(event);

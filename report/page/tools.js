@@ -84,6 +84,20 @@ function extent(values) {
   return low <= high ? [low, high] : [0, 1];
 }
 
+/** Where an event is in an element [px]. */
+function placeIn(element, event) {
+  const box = element.getBoundingClientRect();
+  return [event.clientX - box.left, event.clientY - box.top];
+}
+
+/** Puts a tip beside the place x of something `width` wide, on the side that has room. */
+function putTip(tip, width, x, top, gap = 12) {
+  const right = x > width / 2;
+  tip.style.left = right ? "" : `${x + gap}px`;
+  tip.style.right = right ? `${width - x + gap}px` : "";
+  if (top !== undefined) tip.style.top = `${Math.max(0, top)}px`;
+}
+
 function save(name, blob) {
   const link = make("a", { href: URL.createObjectURL(blob), download: name });
   link.click();

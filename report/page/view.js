@@ -219,10 +219,7 @@ class View {
   }
 
   listen() {
-    const place = (event) => {
-      const box = this.canvas.getBoundingClientRect();
-      return [event.clientX - box.left, event.clientY - box.top];
-    };
+    const place = (event) => placeIn(this.canvas, event);
     let last = null;
     this.canvas.addEventListener(
       "wheel",
@@ -285,10 +282,7 @@ class View {
           make("div", {}, make("span", {}, name), make("b", {}, value)),
         ),
       );
-      const right = px > this.width / 2;
-      this.tip.style.left = right ? "" : `${px + 14}px`;
-      this.tip.style.right = right ? `${this.width - px + 14}px` : "";
-      this.tip.style.top = `${Math.max(0, py - 30)}px`;
+      putTip(this.tip, this.width, px, py - 30, 14);
     }
     this.redraw();
   }

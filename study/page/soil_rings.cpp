@@ -76,12 +76,14 @@ std::vector<SoilArea> soil_areas(const PageRun& run) {
     throw InputError("a page of a run has elements without corners. Make the report again.");
   std::map<int, std::vector<std::array<std::size_t, 4>>> by_tag;
   for (std::size_t e = 0; e < material.size(); ++e) {
+    if (!(std::abs(material[e]) < 1e9))
+      throw InputError("a page of a run has elements without soil. Make the report again.");
     auto& element = by_tag[static_cast<int>(std::lround(material[e]))].emplace_back();
     for (std::size_t c = 0; c < 4; ++c) {
-      const double node = corners[c * material.size() + e];
+      const double node = std::round(corners[c * material.size() + e]);
       if (!(node >= 0.0 && node < static_cast<double>(x.size())))
         throw InputError("a page of a run has elements without nodes. Make the report again.");
-      element[c] = static_cast<std::size_t>(std::lround(node));
+      element[c] = static_cast<std::size_t>(node);
     }
   }
   std::vector<SoilArea> areas;

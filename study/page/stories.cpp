@@ -5,6 +5,7 @@
 #include "core/hash.hpp"
 #include "report/page_read.hpp"
 #include "study/page/curves.hpp"
+#include "study/page/labels.hpp"
 #include "study/page/soil_rings.hpp"
 
 #include <cmath>
@@ -79,13 +80,14 @@ class Reader {
       drawn_ = digest;
       section_ = section_json(row, run, areas);
     } else if (digest != drawn_) {
-      section_["other_rows"].push_back(row);
+      others_.push_back(row);
     }
   }
 
   Stories take() {
     Stories s;
     s.has_section = !section_.is_null();
+    if (s.has_section) section_["other_rows"] = spans_of(others_);
     s.json = StoryJson{{"section", section_}, {"fronts", fronts_}}.dump(
         -1, ' ', false, nlohmann::json::error_handler_t::replace);
     if (!curves_.any()) return s;
@@ -107,8 +109,7 @@ class Reader {
             {"toe", place(run.toe)},
             {"soils", soils},
             {"ground", places(run.ground)},
-            {"water", places(bends(run.water))},
-            {"other_rows", StoryJson::array()}};
+            {"water", places(bends(run.water))}};
   }
 
   const Column* front_;
@@ -116,6 +117,7 @@ class Reader {
   Curves curves_;
   StoryJson section_;
   std::string drawn_;
+  std::vector<std::size_t> others_;  ///< rows of other sections
 };
 
 bool is_told(std::string_view name) { return name.starts_with("mesh.") || is_for_curves(name); }

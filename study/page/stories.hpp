@@ -19,9 +19,9 @@ struct Stories {
 };
 
 /// Reads the pages, which are paths relative to the folder and "" for rows without one. The section
-/// is that of the first row that has one; `section.other_rows` have another. `fronts` are the
-/// places at which the fronts of all rows came to rest, null where none is known. Throws FileError,
-/// and Interrupted when it is to stop.
+/// is that of the first row that has one; `section.other_rows` tells those that have another.
+/// `fronts` are the places at which the fronts of all rows came to rest, null where none is known.
+/// Throws FileError, and Interrupted when it is to stop.
 Stories read_stories(const std::filesystem::path& folder, const Table& table,
                      const std::vector<std::string>& reports,
                      const std::atomic<bool>* stop = nullptr);

@@ -105,8 +105,17 @@ TEST_CASE("Squares that touch at a corner alone keep their area", "[study]") {
 TEST_CASE("Elements without nodes are refused", "[study]") {
   Squares s([](int, int) { return false; });
   CHECK(soil_areas(s.run()).size() == 1);
-  s.corners[3] = 99.0;
+  const double node = s.corners[3];
+  // 27.6 would be the node after the last
+  for (const double wrong : {99.0, 27.6, -0.6, kUnset}) {
+    s.corners[3] = wrong;
+    CHECK_THROWS_AS(soil_areas(s.run()), InputError);
+  }
+  s.corners[3] = node;
+  s.material[0] = kUnset;
   CHECK_THROWS_AS(soil_areas(s.run()), InputError);
+  s.material[0] = 7.0;
+  CHECK(soil_areas(s.run()).size() == 1);
   s.corners.pop_back();
   CHECK_THROWS_AS(soil_areas(s.run()), InputError);
   s.material.clear();
@@ -173,7 +182,7 @@ TEST_CASE("The section of a study is that of its first run, and fronts are of al
   const auto& section = json["section"];
   CHECK(section["row"] == 1);
   CHECK(section["toe"] == 5.0);
-  CHECK(section["other_rows"] == nlohmann::json{3});
+  CHECK(section["other_rows"] == "4");
   CHECK(section["soils"].size() == 2);
   // of three points of water on a line the middle one says nothing
   CHECK(section["water"].size() == 2);

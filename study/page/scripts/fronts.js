@@ -120,9 +120,7 @@ class Fronts {
         ? ""
         : "Runout is how far the front, the fifth-farthest point of the soils that count, comes beyond the toe; a front that stays behind it has a runout of 0. ") +
       "Each stroke is a run, which a click opens on the left, with Shift on the right; boxes hold the middle half of them, whiskers 90 %, the thick stroke is the median." +
-      (others.length
-        ? ` The section of ${others.length === 1 ? "row" : "rows"} ${rowNumbers(others)} is another, which is not drawn.`
-        : "");
+      (others ? ` Another section, which is not drawn, have rows: ${others}.` : "");
   }
 
   axis(bottom, width) {
@@ -260,18 +258,11 @@ class Fronts {
         make("b", {}, number(runout, "m")),
       ),
     );
-    const width = this.plot.clientWidth,
-      right = x > width / 2;
-    this.tip.style.left = right ? "" : `${x + 12}px`;
-    this.tip.style.right = right ? `${width - x + 12}px` : "";
-    this.tip.style.top = `${Math.max(0, y - 46)}px`;
+    putTip(this.tip, this.plot.clientWidth, x, y - 46);
   }
 
   listen() {
-    const place = (event) => {
-      const box = this.svg.getBoundingClientRect();
-      return [event.clientX - box.left, event.clientY - box.top];
-    };
+    const place = (event) => placeIn(this.svg, event);
     this.svg.addEventListener("pointermove", (event) => this.pointAt(this.nearest(...place(event))));
     this.svg.addEventListener("pointerleave", () => this.pointAt(null));
     this.svg.addEventListener("blur", () => this.pointAt(null));
@@ -310,15 +301,4 @@ function shareOf(sorted, share) {
   const at = share * (sorted.length - 1),
     k = Math.min(Math.floor(at), sorted.length - 2);
   return sorted.length < 2 ? sorted[0] : sorted[k] + (at - k) * (sorted[k + 1] - sorted[k]);
-}
-
-/** "129 to 134, 140" of rows from 0. */
-function rowNumbers(rows) {
-  const spans = [];
-  for (const row of rows) {
-    const last = spans[spans.length - 1];
-    if (last && last[1] === row - 1) last[1] = row;
-    else spans.push([row, row]);
-  }
-  return spans.map(([a, b]) => (a === b ? `${a + 1}` : `${a + 1} to ${b + 1}`)).join(", ");
 }

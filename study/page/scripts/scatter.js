@@ -148,12 +148,7 @@ class Scatter {
         make("div", {}, make("span", {}, name), make("b", {}, value)),
       ),
     );
-    const width = this.plot.clientWidth,
-      px = this.px(point.x),
-      right = px > width / 2;
-    this.tip.style.left = right ? "" : `${px + 14}px`;
-    this.tip.style.right = right ? `${width - px + 14}px` : "";
-    this.tip.style.top = `${Math.max(0, this.py(point.y) - 40)}px`;
+    putTip(this.tip, this.plot.clientWidth, this.px(point.x), this.py(point.y) - 40, 14);
   }
 
   /** Points whose runs are open, by side: {left: point, right: point}. */

@@ -5,10 +5,7 @@ const NEAR = { mouse: 22, touch: 40 }; // how far a point may be from what point
 Object.assign(Scatter.prototype, {
   listen() {
     this.from = null;
-    const place = (event) => {
-      const box = this.svg.getBoundingClientRect();
-      return [event.clientX - box.left, event.clientY - box.top];
-    };
+    const place = (event) => placeIn(this.svg, event);
     const near = (event) => NEAR[event.pointerType === "mouse" ? "mouse" : "touch"];
     this.svg.addEventListener("pointerdown", (event) => {
       if (event.button !== 0) return;

@@ -39,18 +39,11 @@ Object.assign(Strands.prototype, {
       line(y.label, number(strand.y[k], y.unit)),
       line(x.label, number(strand.x[k], x.unit)),
     );
-    const width = this.plot.clientWidth,
-      right = px > width / 2;
-    this.tip.style.left = right ? "" : `${px + 12}px`;
-    this.tip.style.right = right ? `${width - px + 12}px` : "";
-    this.tip.style.top = `${Math.max(0, py - 60)}px`;
+    putTip(this.tip, this.plot.clientWidth, px, py - 60);
   },
 
   listen() {
-    const place = (event) => {
-      const box = this.svg.getBoundingClientRect();
-      return this.nearest(event.clientX - box.left, event.clientY - box.top);
-    };
+    const place = (event) => this.nearest(...placeIn(this.svg, event));
     this.svg.addEventListener("pointermove", (event) => this.pointAt(place(event)));
     this.svg.addEventListener("pointerleave", () => this.pointAt(null));
     this.svg.addEventListener("blur", () => this.pointAt(null));
