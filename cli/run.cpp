@@ -5,6 +5,7 @@
 #include "cli/usage.hpp"
 #include "config/yaml.hpp"
 #include "core/check.hpp"
+#include "core/files.hpp"
 #include "study/run/store.hpp"
 #include "workflows/engine/headlines.hpp"
 #include "workflows/engine/lock.hpp"
@@ -99,7 +100,7 @@ int run(const RunArguments& args) {
   fs::path folder = args.out;
   if (folder.empty())
     folder = fs::path("runs") / workflow_name(load_yaml(args.file, args.overrides));
-  if (std::error_code error; fs::exists(folder / study::kPlanFile, error))
+  if (is_there(folder / study::kPlanFile))
     throw InputError(fmt::format(
         "{}: holds a study (the result of a single run would be mixed with its own). Choose another "
         "--out.",
@@ -130,11 +131,10 @@ int run(const RunArguments& args) {
 
 /// The workflow of a run folder, with the stages that write reports done again and no other.
 int report(const std::string& folder, const std::vector<std::string>& allowed_programs) {
-  const auto [lock, problem] = read_lock(folder);
-  std::error_code error;
-  if (!std::filesystem::exists(folder, error))
+  if (!is_there(folder))
     throw InputError(fmt::format(
         "{}: no run folder (there is no such folder). Name the folder of a finished run.", folder));
+  const auto [lock, problem] = read_lock(folder);
   if (!lock)
     throw InputError(fmt::format("{}: no run folder ({}). Name the folder of a finished run.",
                                  folder, problem.empty() ? "it has no run.lock" : problem));

@@ -43,8 +43,7 @@ struct StudyArguments {
 
 /// The study file that a folder is of; empty where it is of none, or its plan cannot be read.
 fs::path file_of_study(const fs::path& folder) {
-  std::error_code error;
-  if (!fs::exists(folder / study::kPlanFile, error)) return {};
+  if (!is_there(folder / study::kPlanFile)) return {};
   try {
     return study::read_plan(folder).file;
   } catch (const InputError&) {
@@ -54,14 +53,13 @@ fs::path file_of_study(const fs::path& folder) {
 
 fs::path study_folder(const StudyArguments& args, const study::Plan& plan) {
   const fs::path folder = args.out.empty() ? fs::path("runs") / plan.name : fs::path(args.out);
-  std::error_code error;
-  if (!fs::exists(folder / study::kPlanFile, error) && fs::exists(folder / "run.lock", error))
+  if (!is_there(folder / study::kPlanFile) && is_there(folder / "run.lock"))
     throw InputError(
         fmt::format("{}: holds a single run (its results would be mixed with those of "
                     "the study). Choose another --out.",
                     folder.string()));
   if (const fs::path of = file_of_study(folder);
-      fs::exists(of, error) && !fs::equivalent(of, plan.file, error))
+      !of.empty() && is_there(of) && !fs::equivalent(of, plan.file))
     print_warning(fmt::format(
         "{}: holds the study of {}: its table and report are replaced by those of {}, and what both "
         "have computed is kept. If they are two studies, give one another 'name' or --out.",

@@ -198,8 +198,7 @@ int run_study_part(const std::string& file, std::size_t task) {
 
 std::optional<StudyQueue> queue_of(const fs::path& folder) {
   const study::Scheduler scheduler = study::slurm({}, &stop_on_signal());
-  std::error_code error;
-  if (!fs::exists(folder / scheduler.name, error)) return std::nullopt;
+  if (!is_there(folder / scheduler.name)) return std::nullopt;
   try {
     const study::UnderWay found = under_way(folder, scheduler, scheduler.queue());
     if (found.jobs.empty()) return std::nullopt;

@@ -71,6 +71,11 @@ void remove_leftovers(const fs::path& folder, const std::string& target) {
   for (const fs::path& path : found) remove_path(path);
 }
 
+fs::file_type known(const fs::path& path, fs::file_status status, const std::error_code& error) {
+  if (status.type() == fs::file_type::none) fail(path, "cannot be reached", error.value());
+  return status.type();
+}
+
 Descriptor open_regular(const fs::path& path) {
   // Without O_NONBLOCK the opening of a pipe waits for a writer, for ever if there is none.
   Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
@@ -179,6 +184,16 @@ std::string read_file(const fs::path& path, std::uint64_t limit) {
                                   path.string(), limit));
   });
   return bytes;
+}
+
+fs::file_type type_of(const fs::path& path) {
+  std::error_code error;
+  return known(path, fs::status(path, error), error);
+}
+
+fs::file_type own_type_of(const fs::path& path) {
+  std::error_code error;
+  return known(path, fs::symlink_status(path, error), error);
 }
 
 void sync_path(const fs::path& path) {

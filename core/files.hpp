@@ -50,6 +50,17 @@ void read_blocks(const std::filesystem::path& path,
 /// have no end) and for more than `limit` bytes.
 std::string read_file(const std::filesystem::path& path, std::uint64_t limit);
 
+/// What is under a name, `not_found` if nothing is; a link counts as what it points to. FileError
+/// where the system does not tell: what cannot be looked at is not absent.
+std::filesystem::file_type type_of(const std::filesystem::path& path);
+
+/// type_of() of the name itself: a link is a link.
+std::filesystem::file_type own_type_of(const std::filesystem::path& path);
+
+inline bool is_there(const std::filesystem::path& path) {
+  return type_of(path) != std::filesystem::file_type::not_found;
+}
+
 /// FileError unless `path` is a regular file, or a link to one, that can be read.
 void expect_regular_file(const std::filesystem::path& path);
 

@@ -182,8 +182,7 @@ const std::vector<Conversion>& conversions() {
 }
 
 std::string kind_of(const fs::path& in) {
-  std::error_code error;
-  if (fs::is_directory(in, error)) return "folder";
+  if (type_of(in) == fs::file_type::directory) return "folder";
   if (is_hdf5(in)) return stored_kind(in);
   if (in.extension() == ".h5")
     throw FileError(fmt::format(
@@ -194,7 +193,8 @@ std::string kind_of(const fs::path& in) {
 
 std::string target_of(const std::string& out) {
   const fs::path path(out);
-  if (out.ends_with('/') || fs::is_directory(path) || path.extension().empty()) return "folder";
+  if (out.ends_with('/') || type_of(path) == fs::file_type::directory || path.extension().empty())
+    return "folder";
   return path.extension().string();
 }
 

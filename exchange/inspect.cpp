@@ -212,8 +212,7 @@ Json inspect_terrain(const fs::path& path) {
 }  // namespace
 
 Json inspect(const fs::path& path, const std::function<void(double)>& tick) {
-  std::error_code error;
-  if (fs::is_directory(path, error)) return inspect_run(path, tick);
+  if (type_of(path) == fs::file_type::directory) return inspect_run(path, tick);
   if (is_hdf5(path)) return inspect_store(path);
   if (path.extension() == ".yaml" || path.extension() == ".yml") return inspect_workflow(path);
   if (is_terrain(path)) return inspect_terrain(path);

@@ -1,6 +1,7 @@
 #include "exchange/inspect_run.hpp"
 
 #include "core/check.hpp"
+#include "core/files.hpp"
 #include "workflows/engine/lock.hpp"
 #include "workflows/engine/publish.hpp"
 #include "workflows/engine/session.hpp"
@@ -16,8 +17,7 @@ namespace {
 /// Folders in a folder, links left out, by name.
 std::vector<fs::path> folders_in(const fs::path& folder) {
   std::vector<fs::path> found;
-  std::error_code error;
-  if (!fs::is_directory(folder, error)) return found;
+  if (type_of(folder) != fs::file_type::directory) return found;
   for (const auto& entry : fs::directory_iterator(folder))
     if (entry.is_directory() && !entry.is_symlink()) found.push_back(entry.path());
   std::sort(found.begin(), found.end());
@@ -63,8 +63,7 @@ std::vector<std::string> problems_of_result(const fs::path& result, Counted& cou
 
 /// Stages without checkpoints leave nothing that could be continued.
 std::vector<std::string> problems_of_work(const fs::path& work) {
-  std::error_code error;
-  if (!fs::exists(work / kSessionFile, error)) return {};
+  if (!is_there(work / kSessionFile)) return {};
   const std::string problem = read_session(work).problem;
   return problem.empty() ? std::vector<std::string>{} : std::vector{problem};
 }

@@ -19,7 +19,7 @@ PartsFolder::PartsFolder(std::filesystem::path path, bool anew) : path_(std::mov
     return;
   }
   // A link would lead the run's writing out of its folder.
-  if (!std::filesystem::is_directory(std::filesystem::symlink_status(path_, error)))
+  if (own_type_of(path_) != std::filesystem::file_type::directory)
     throw FileError(fmt::format(
         "the folder '{}' is missing (the checkpoint counts on what was in it) delete the "
         "checkpoint to start the stage again from its beginning",

@@ -26,9 +26,8 @@ DrawnFigures draw_figures(const fs::path& folder, const std::optional<std::strin
   arguments.insert(arguments.end(), only.begin(), only.end());
   drawn.problem = run_plot_script("plot.run", arguments, python, limits);
   if (!drawn.problem.empty()) return drawn;
-  std::error_code error;
   for (const Figure& figure : kFigures)
-    if (fs::exists(folder / "figures" / (std::string(figure.name) + ".png"), error))
+    if (is_there(folder / "figures" / (std::string(figure.name) + ".png")))
       drawn.figures.push_back(figure);
   return drawn;
 }

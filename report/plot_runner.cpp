@@ -27,8 +27,7 @@ std::vector<std::string> isolated(const std::string& python, const char* code) {
 
 std::string last_lines(const fs::path& log, const std::string& scripts) {
   constexpr std::size_t most = 600;
-  std::error_code error;
-  if (!fs::exists(log, error)) return "";
+  if (!is_there(log)) return "";
   std::string text = read_file(log, kLongestLog);
   // The folder has another name each time; the report must not.
   for (std::size_t at; (at = text.find(scripts)) != std::string::npos;)

@@ -20,7 +20,7 @@ constexpr std::string_view kRecordEnding = ".json";
 fs::path next_folder(const fs::path& all) {
   unsigned last = 0;
   // A folder that cannot be listed is an error: jobs in the queue have their scripts in it.
-  if (!fs::exists(all)) return all / "1";
+  if (!is_there(all)) return all / "1";
   for (const auto& entry : fs::directory_iterator(all)) {
     const std::string name = entry.path().filename().string();
     unsigned number = 0;
@@ -210,7 +210,7 @@ UnderWay under_way(const fs::path& study, const Scheduler& scheduler,
     fs::path file = script;
     file.replace_extension(kRecordEnding);
     // The job of the report has none.
-    if (!fs::exists(file)) continue;
+    if (!is_there(file)) continue;
     if (!records.contains(file)) records[file] = read_array(file);
     const auto& tasks = records[file].tasks;
     if (task.task >= tasks.size()) continue;

@@ -38,8 +38,7 @@ void remove_earlier(const fs::path& folder, const std::map<std::string, std::str
                     const std::map<std::string, std::string>& now) {
   for (const auto& [name, digest] : earlier) {
     const fs::path path = folder / name;
-    std::error_code error;
-    if (now.contains(name) || !fs::is_regular_file(fs::symlink_status(path, error))) continue;
+    if (now.contains(name) || own_type_of(path) != fs::file_type::regular) continue;
     if (sha256(read_file(path, kLargest)) == digest) remove_path(path);
   }
 }
@@ -61,7 +60,7 @@ std::vector<std::string> pages(const fs::path& folder, const Plan& plan, const T
       const Column* key = table.find("key:" + stage);
       if (plan.nodes[n].stage.type.name != kReportStage || !key || key->text[r].empty()) continue;
       const std::string path = fmt::format("stages/{}/{}/report/report.html", stage, key->text[r]);
-      if (fs::is_regular_file(folder / path)) found[r] = path;
+      if (type_of(folder / path) == fs::file_type::regular) found[r] = path;
     }
   return found;
 }
@@ -93,8 +92,7 @@ void write_page(const fs::path& folder, const Plan& plan, const Table& table,
   about.stories = read_stories(folder, table, about.reports, stop);
   const Page page = make_page(plan, table, findings, about);
   const fs::path figures = folder / "figures", analysis = folder / "analysis.json";
-  std::error_code error;
-  if (fs::is_symlink(fs::symlink_status(figures, error)))
+  if (own_type_of(figures) == fs::file_type::symlink)
     throw FileError(
         fmt::format("'{}' is a link (figures would be written outside the folder of the study). "
                     "Remove it.",

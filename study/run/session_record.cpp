@@ -95,7 +95,7 @@ void SessionLog::stage_made() {
 
 std::vector<SessionRecord> read_sessions(const fs::path& folder) {
   std::vector<SessionRecord> sessions;
-  if (!fs::exists(folder / kFolder)) return sessions;
+  if (!is_there(folder / kFolder)) return sessions;
   for (const auto& entry : fs::directory_iterator(folder / kFolder)) {
     if (entry.path().extension() != ".json") continue;
     try {

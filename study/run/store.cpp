@@ -95,14 +95,12 @@ void Store::forget_failure(const std::string& stage, const std::string& key) con
 }
 
 bool Store::has_files(const std::string& stage, const std::string& key) const {
-  std::error_code error;
-  return fs::exists(result(stage, key) / kRecordFile, error);
+  return is_there(result(stage, key) / kRecordFile);
 }
 
 void Store::drop_files(const std::string& stage, const std::string& key) const {
   const fs::path folder = result(stage, key), gone = folder.string() + std::string(kGone);
-  std::error_code error;
-  if (!fs::exists(fs::symlink_status(folder, error))) return;
+  if (own_type_of(folder) == fs::file_type::not_found) return;
   remove_waste(gone);
   rename_durably(folder, gone);
   remove_waste(gone);
@@ -139,8 +137,7 @@ void write_plan(const fs::path& folder, const Plan& plan) {
 }
 
 Plan read_plan(const fs::path& folder) {
-  std::error_code error;
-  if (!fs::exists(folder, error))
+  if (!is_there(folder))
     throw InputError(fmt::format(
         "{}: no folder of a study (there is no such folder). Name the one that 'flowslide study run' "
         "has made.",

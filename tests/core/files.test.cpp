@@ -87,3 +87,20 @@ TEST_CASE("A name that is none is refused and costs no other file") {
   CHECK_THROWS_AS(OutputFile(fs::path()), FileError);
   CHECK(entries(other.parent_path()) == 1);
 }
+
+TEST_CASE("What cannot be looked at is not absent") {
+  const TemporaryFolder folder;
+  const fs::path path = folder / "a.txt", link = folder / "link";
+  CHECK(!is_there(path));
+  CHECK(!is_there(path / "below"));
+  write_file(path, "a");
+  CHECK(is_there(path));
+  CHECK(!is_there(path / "below"));
+  fs::create_symlink(folder / "nowhere", link);
+  CHECK(!is_there(link));
+  CHECK(own_type_of(link) == fs::file_type::symlink);
+  // The system tells neither that it is there nor that it is not.
+  const fs::path long_name = path.string() + std::string(300, 'x');
+  CHECK_THROWS_AS(is_there(long_name), FileError);
+  CHECK_THROWS_AS(own_type_of(long_name), FileError);
+}

@@ -25,15 +25,9 @@ std::string replace_all(std::string text, std::string_view from, const std::stri
   return text;
 }
 
-bool is_there(const fs::path& path) {
-  std::error_code error;
-  return fs::exists(fs::symlink_status(path, error));
-}
+bool is_taken(const fs::path& path) { return own_type_of(path) != fs::file_type::not_found; }
 
-bool is_link(const fs::path& path) {
-  std::error_code error;
-  return fs::is_symlink(fs::symlink_status(path, error));
-}
+bool is_link(const fs::path& path) { return own_type_of(path) == fs::file_type::symlink; }
 
 /// Where a link points; empty if it is none.
 std::string link_target(const fs::path& path) {
@@ -41,10 +35,7 @@ std::string link_target(const fs::path& path) {
   return fs::read_symlink(path, error).generic_string();
 }
 
-bool is_file(const fs::path& path) {
-  std::error_code error;
-  return fs::is_regular_file(fs::symlink_status(path, error));
-}
+bool is_file(const fs::path& path) { return own_type_of(path) == fs::file_type::regular; }
 
 /// A link into the results, or a rewritten .pvd, as only publish() makes them.
 bool is_published(const fs::path& path) {
@@ -66,7 +57,7 @@ std::optional<std::string> present_digest(const fs::path& run_folder, const std:
   fs::path folder = run_folder;
   for (const fs::path& part : fs::path(name).parent_path())
     if (is_link(folder /= part)) return sha256("");
-  if (!is_there(run_folder / name)) return std::nullopt;
+  if (!is_taken(run_folder / name)) return std::nullopt;
   return sha256(is_file(run_folder / name) ? read_file(run_folder / name, kLongestText) : "");
 }
 
@@ -92,7 +83,7 @@ std::vector<Publication> publications(const std::vector<StageRecord>& records) {
 
 void publish(const fs::path& run_folder, const Publication& item, bool ours) {
   const fs::path path = run_folder / item.name;
-  if (is_there(path) && !is_published(path) && !(ours && is_file(path)))
+  if (is_taken(path) && !is_published(path) && !(ours && is_file(path)))
     throw FileError(
         fmt::format("'{}' was not made by this program (a result of that name goes "
                     "there). Give it another name or choose another --out.",
@@ -136,7 +127,7 @@ std::vector<std::string> problems_at_top(const fs::path& run_folder, const RunLo
                                               : result.problem);
   for (const Publication& item : lock.published) {
     const fs::path path = run_folder / item.name;
-    if (!is_there(path)) {
+    if (!is_taken(path)) {
       problems.push_back(fmt::format("{} is missing", item.name));
     } else if (path.extension() != ".pvd") {
       if (link_target(path) != item.target)

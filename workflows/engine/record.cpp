@@ -67,8 +67,7 @@ std::string read_facts(const fs::path& folder, const StageRecord& record) {
   const FileRecord* facts = find_file(record.files, kFactsFile);
   validate(facts, "{} is missing in the record", kFactsFile);
   const fs::path path = folder / kFactsFile;
-  std::error_code error;
-  validate(fs::exists(path, error) || error, "{} is missing", kFactsFile);
+  validate(is_there(path), "{} is missing", kFactsFile);
   const std::string text = read_file(path, kLongestFacts);
   validate(sha256(text) == facts->sha256, "the content of {} has changed", kFactsFile);
   const auto json = parse_object(text);
@@ -167,8 +166,7 @@ void write_record(const fs::path& folder, StageRecord& record) {
 RecordRead read_stage_record(const fs::path& folder) {
   const SealedJson file = read_sealed(folder / kRecordFile);
   if (!file.json) {
-    std::error_code error;
-    if (!file.problem.empty() || !fs::exists(folder, error)) return {{}, file.problem};
+    if (!file.problem.empty() || !is_there(folder)) return {{}, file.problem};
     return {{}, fmt::format("{} is missing", kRecordFile)};
   }
   StageRecord record;
@@ -200,11 +198,10 @@ Verified verify(const StageRecord& record, const fs::path& folder, const Between
   const auto problem = [&](std::string text) { result.problems.push_back(std::move(text)); };
   for (const FileRecord& file : record.files) {
     const fs::path path = folder / file.name;
-    std::error_code error;
-    const fs::file_status status = fs::status(path, error);
-    if (status.type() == fs::file_type::not_found) {
+    const fs::file_type type = type_of(path);
+    if (type == fs::file_type::not_found) {
       problem(fmt::format("{} is missing", file.name));
-    } else if (status.type() != fs::file_type::none && !fs::is_regular_file(status)) {
+    } else if (type != fs::file_type::regular) {
       problem(fmt::format("{} is no file", file.name));
     } else if (const FileState state = file_state(path); state.size != file.bytes) {
       problem(fmt::format("{} has {} bytes, not {}", file.name, state.size, file.bytes));

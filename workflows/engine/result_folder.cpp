@@ -14,10 +14,9 @@ namespace {
 
 /// The first link on the way from the run folder, itself left out, to a folder in it.
 std::optional<fs::path> link_between(const fs::path& run_folder, const fs::path& folder) {
-  std::error_code error;
   fs::path path = run_folder;
   for (const fs::path& part : folder.lexically_relative(run_folder))
-    if (fs::is_symlink(fs::symlink_status(path /= part, error))) return path;
+    if (own_type_of(path /= part) == fs::file_type::symlink) return path;
   return std::nullopt;
 }
 
@@ -43,15 +42,14 @@ void make_work_folder(const fs::path& run_folder, const fs::path& work, bool kee
 }
 
 void remove_work_folder(const fs::path& run_folder, const fs::path& work) {
-  std::error_code error;
-  if (fs::exists(fs::symlink_status(work, error)) && !link_between(run_folder, work.parent_path()))
+  if (own_type_of(work) != fs::file_type::not_found &&
+      !link_between(run_folder, work.parent_path()))
     remove_path(work);
 }
 
 void install_result(const fs::path& work, const fs::path& result) {
   sync_tree(work);
-  std::error_code error;
-  if (!fs::exists(fs::symlink_status(result, error))) {
+  if (own_type_of(result) == fs::file_type::not_found) {
     rename_durably(work, result);
     return;
   }

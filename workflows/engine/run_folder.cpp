@@ -63,9 +63,8 @@ std::string holder(int guard) {
 }
 
 void expect_own_results(const fs::path& folder) {
-  std::error_code error;
-  if (fs::exists(fs::symlink_status(folder / kGuardFile, error))) return;
-  if (!fs::exists(fs::symlink_status(folder / kResultFile, error))) return;
+  if (own_type_of(folder / kGuardFile) != fs::file_type::not_found) return;
+  if (own_type_of(folder / kResultFile) == fs::file_type::not_found) return;
   if (read_lock(folder).lock) return;
   throw InputError(
       fmt::format("{}: holds a result.json but no run of flowslide (it would be "

@@ -84,9 +84,7 @@ StageResult call(const WorkflowStage& stage, const RunContext& context, const St
 }
 
 void expect_output(const WorkflowStage& stage, const Port& port, const fs::path& work) {
-  std::error_code error;
-  if (fs::exists(work / port.file, error)) return;
-  if (error) fail(stage, 4, fmt::format("'{}': {}", (work / port.file).string(), error.message()));
+  if (is_there(work / port.file)) return;
   throw std::logic_error(fmt::format("stage {} did not write {}", stage.name, port.file));
 }
 

@@ -68,11 +68,9 @@ std::string seal(const Json& object) {
 
 SealedJson read_sealed(const fs::path& path) {
   const std::string name = path.filename().string();
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (status.type() == fs::file_type::not_found) return {};
-  if (status.type() != fs::file_type::none && !fs::is_regular_file(status))
-    return {{}, fmt::format("{} is no file", name)};
+  const fs::file_type type = type_of(path);
+  if (type == fs::file_type::not_found) return {};
+  if (type != fs::file_type::regular) return {{}, fmt::format("{} is no file", name)};
   const std::string text = read_file(path, kLongest);
   if (!is_sealed(text)) {
     // Files of earlier programs had no checksum.

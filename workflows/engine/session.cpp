@@ -52,10 +52,9 @@ void write_session(const fs::path& work, double seconds, std::span<const HashedF
 }
 
 SessionRead read_session(const fs::path& work) {
-  std::error_code error;
-  const fs::file_status status = fs::symlink_status(work, error);
-  if (status.type() == fs::file_type::not_found) return {};
-  if (!fs::is_directory(status)) return {{}, "its folder is none"};
+  const fs::file_type type = own_type_of(work);
+  if (type == fs::file_type::not_found) return {};
+  if (type != fs::file_type::directory) return {{}, "its folder is none"};
   if (const auto name = way_out(work)) return {{}, fmt::format("{} is a link or no file", *name)};
   const SealedJson file = read_sealed(work / kSessionFile);
   if (!file.json)

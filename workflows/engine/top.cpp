@@ -13,10 +13,9 @@ RunTop::RunTop(const fs::path& run_folder, const Workflow& workflow, const RunEv
     : folder_(run_folder), events_(events) {
   LockRead read = read_lock(folder_);
   before_ = std::move(read.lock);
-  std::error_code error;
   if (!read.problem.empty())
     events_.notice(read.problem);
-  else if (!before_ && fs::exists(folder_ / kResultFile, error))
+  else if (!before_ && is_there(folder_ / kResultFile))
     events_.notice("run.lock is missing");
   if (before_)
     for (const std::string& problem : problems_at_top(folder_, *before_)) events_.notice(problem);
@@ -47,8 +46,7 @@ void RunTop::withdraw_earlier() {
 
 void RunTop::stage_runs() {
   if (withdrawn_) return;
-  std::error_code error;
-  if (fs::exists(folder_ / kResultFile, error))
+  if (is_there(folder_ / kResultFile))
     events_.notice(
         fmt::format("{} of the earlier run goes until this one is complete; what it "
                     "computed stays in stages/",

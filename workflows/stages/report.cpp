@@ -47,7 +47,7 @@ std::vector<Headline> headlines(const ReportFacts& f) {
 std::optional<GroundMotion> motion_of(const std::vector<EarlierStage>& stages) {
   for (const EarlierStage& stage : stages)
     if (const auto out = stage.outputs.find("motion");
-        out != stage.outputs.end() && std::filesystem::exists(out->second.path))
+        out != stage.outputs.end() && is_there(out->second.path))
       return read_motion_file(out->second.path);
   return std::nullopt;
 }
@@ -125,7 +125,7 @@ struct ReportStage {
                        .warnings = facts.warnings,
                        .headlines = headlines(facts)};
     for (const char* file : {"report/flow.pvd", "report/zone.pvd"})
-      if (std::filesystem::exists(context.folder / file)) result.publish.emplace_back(file);
+      if (is_there(context.folder / file)) result.publish.emplace_back(file);
     if (config.figures) {
       make_folders(context.folder / "plot");
       result.give = write_plot_scripts(context.folder / "plot");
