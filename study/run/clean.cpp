@@ -19,8 +19,9 @@ Cleaned clean(const Plan& plan, const Store& store, const StudyState& progress, 
       needed.insert(plan.nodes[n].stage.name + "/" + state.key.substr(0, kDigits));
   }
   std::map<std::string, std::vector<fs::path>> waste;  // by key
-  std::error_code error;
-  for (const auto& stage : fs::directory_iterator(store.folder() / "stages", error)) {
+  const fs::path stages = store.folder() / "stages";
+  if (!is_there(stages)) return {};
+  for (const auto& stage : fs::directory_iterator(stages)) {
     if (!stage.is_directory() || stage.is_symlink()) continue;
     for (const auto& entry : fs::directory_iterator(stage.path())) {
       const std::string name = entry.path().filename().string(), key = name.substr(0, kDigits);

@@ -42,6 +42,7 @@ struct Record {
   std::atomic<unsigned> count, fired, points;
   /// files: the letter of call i + 1; memory: numbers of the first call from each place.
   unsigned list[kMost];
+  unsigned place[kMost];  ///< of what `list` names, in a run in which nothing is to go wrong
 };
 
 struct Plan {
@@ -60,6 +61,10 @@ extern Record* record;
 /// bytes, then die(); else the errno with which it fails. `usual` is that of its kind.
 int strike(Call call, int usual);
 inline constexpr int kHalf = -1, kTorn = -2;
+
+/// A number for the place that the call comes from, the addresses of its innermost callers: the
+/// same in every process. places.cpp
+unsigned place_of_call();
 
 [[noreturn]] void die();
 /// Before a power cut dies: what was written and not synced since is lost. files.cpp

@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
 """Makes one system call or request for memory after the other go wrong in short runs of the program.
 
-    faults.py PROGRAM SHIM [--full | --every N] [--scene NAME] [--action NAME] [--at N] [--jobs N]
+    faults.py PROGRAM SHIM [--places | --full] [--scene NAME] [--action NAME] [--at N] [--jobs N]
 
 After each: the exit code is that of files (4), nothing incomplete lies under a final name, and the
-same command, undisturbed, ends with the bytes of a run that never was disturbed. Without --full
-every so manieth point is taken, a different one for each action: see STRIDES.
+same command, undisturbed, ends with the bytes of a run that never was disturbed.
+
+Of all calls from one place in the program (its innermost callers, whichever run they are in) the
+first is taken with --places, and of these places every so manieth, a different one for each action,
+without it: see STRIDES. --full takes every call of every run.
 """
 
 import argparse
@@ -43,9 +46,10 @@ ACTIONS = {  # name: letter, kind, the calls it is made for
     "memory": ("f", "memory", None),
     "no memory": ("d", "memory", None),
 }
-# Every how manieth point is taken in a short run.
-STRIDES = {"fail": 3, "misread": 10, "full": 8, "dead": 20, "part": 16, "interrupt": 30, "kill": 5,
-           "torn": 5, "cut": 7, "cut names": 9, "stop": 30, "memory": 250, "no memory": 1000}
+# Every how manieth place is taken in a short run.
+STRIDES = {"fail": 2, "misread": 4, "full": 8, "dead": 10, "part": 8, "interrupt": 12, "kill": 4,
+           "torn": 2, "cut": 5, "cut names": 6, "stop": 12, "memory": 120, "no memory": 500}
+KILLS = 24  # of the 120 of a scene that is only killed
 
 
 class Program:
@@ -61,7 +65,8 @@ class Program:
                                         env=environment, text=True)
 
     def run(self, root, arguments, action="-", kind="files", number=0, clock=0.0):
-        """(wait status as an exit code, negative for signals; fired; count; list)"""
+        """(wait status as an exit code, negative for signals; fired; count; list), the list of
+        files with letter and place of each call, of memory with the first call from each place."""
         job = [f"{root}.said", root, kind, action, number, clock, LIMIT, "flowslide", *arguments]
         self.process.stdin.write("\t".join(map(str, job)) + "\n")
         self.process.stdin.flush()
@@ -70,7 +75,7 @@ class Program:
             raise RuntimeError("the shim's server has ended")
         status, fired, count, calls = answer.rstrip("\n").split("\t")
         return (os.waitstatus_to_exitcode(int(status)), fired == "1", int(count),
-                [int(n) for n in calls.split()] if kind == "memory" else calls)
+                [tuple(c.split(":")) for c in calls.split()])
 
 
 class Worker:
@@ -139,13 +144,20 @@ class Worker:
         state = f"{self.folder}/{scene.name}"
         shutil.copytree(self.root, state, symlinks=True)
         start = tree.snapshot(self.root)
-        code, _, _, calls = self.program.run(self.root, command, clock=scene.clock)
+        code, *_ = self.program.run(self.root, command, clock=scene.clock)
         if code != 0:
             raise RuntimeError(f"{scene.name} ended with {code}: {self.said()}")
-        whole = tree.snapshot(self.root)
-        self.restore(state)
-        places = self.program.run(self.root, command, kind="memory", clock=scene.clock)[3]
-        return state, command, start, whole, calls, places
+        return state, command, start, tree.snapshot(self.root)
+
+    def survey(self, scene):
+        """Calls and requests for memory of an undisturbed run, see Program.run()."""
+        state, command, *_ = self.prepare(scene)
+        seen = {}
+        for kind in ("files", "memory"):
+            self.restore(state)
+            seen[kind] = self.program.run(self.root, command, kind=kind, clock=scene.clock)[3]
+        shutil.rmtree(state)
+        return seen
 
     def stop_half_way(self, command, clock):
         """SIGTERM at the first call of a row after which the run leaves a checkpoint."""
@@ -171,7 +183,7 @@ class Worker:
 
     def inject(self, scene, prepared, name, number):
         """Problems after a fault at one point, and what the run said; None if it had no such call."""
-        state, command, start, whole, _, _ = prepared
+        state, command, start, whole = prepared
         self.restore(state)
         letter, kind, _ = ACTIONS[name]
         code, fired, *_ = self.program.run(self.root, command, letter, kind, number, scene.clock)
@@ -201,23 +213,46 @@ class Worker:
         return problems, said
 
 
-def points(scene, name, prepared, stride):
-    _, kind, letters = ACTIONS[name]
-    calls, places = prepared[4:6]
-    if scene.kills_only:
-        return chosen_kills(calls)[::stride] if name == "kill" else []
-    numbers = places if kind == "memory" else [i + 1 for i, c in enumerate(calls) if c in letters]
-    if name.startswith("cut"):
-        numbers.append(len(calls) + 1)  # after the end
-    # Strides start anywhere, so that they do not keep step with a pattern of the calls.
-    first = random.Random(scene.name + name).randrange(stride)
-    return numbers[first::stride]
+def choose(options, scenes, surveys):
+    """Numbers of the calls that go wrong, by scene and action."""
+    taken, chosen = set(), {}
+    for scene, seen in zip(scenes, surveys):
+        new = {kind: first_of_places(calls, taken) for kind, calls in seen.items()}
+        for name in options.action or ACTIONS:
+            kind, letters = ACTIONS[name][1:]
+            calls = seen[kind]
+            numbers = range(1, len(calls) + 1) if options.full else new[kind]
+            if kind == "memory":
+                numbers = [int(calls[n - 1][0]) for n in numbers]
+            else:
+                numbers = [n for n in numbers if calls[n - 1][0] in letters]
+            if scene.kills_only:
+                numbers = chosen_kills(calls) if name == "kill" else []
+            elif name.startswith("cut"):
+                numbers.append(len(calls) + 1)  # after the end
+            if not (options.full or options.places):
+                # Strides start anywhere, so that they do not keep step with a pattern of the calls.
+                stride = 120 // KILLS if scene.kills_only else STRIDES[name]
+                numbers = numbers[random.Random(scene.name + name).randrange(stride)::stride]
+            chosen[scene.name, name] = options.at or numbers
+    return chosen
+
+
+def first_of_places(calls, taken):
+    """Numbers, from 1, of the calls from places that no run before has come by."""
+    numbers = []
+    for n, (what, place) in enumerate(calls, 1):
+        key = (what if what.isalpha() else "memory", place)
+        if key not in taken:
+            taken.add(key)
+            numbers.append(n)
+    return numbers
 
 
 def chosen_kills(calls):
     """100 calls at random, 10 renames and what comes after them."""
     draw = random.Random(11)
-    renames = [i + 1 for i, c in enumerate(calls) if c == "n"]
+    renames = [i + 1 for i, c in enumerate(calls) if c[0] == "n"]
     chosen = sorted(draw.sample(renames, 10))
     return draw.sample(range(1, len(calls) + 1), 100) + chosen + [n + 1 for n in chosen]
 
@@ -230,32 +265,43 @@ def start_worker(options, folder):
     worker = Worker(options, f"{folder}/{os.getpid()}")
 
 
+def survey(scene):
+    return worker.survey(scene)
+
+
 def work(task):
     """A share of the points of a scene: a list of (scene, action, call, number, problems)."""
-    options, scene, share, shares = task
+    options, scene, seen, share = task
     prepared = worker.prepare(scene)
     done = []
-    for name in options.action or ACTIONS:
-        stride = 1 if options.full else options.every * STRIDES[name]
-        for number in (options.at or points(scene, name, prepared, stride))[share::shares]:
-            outcome = worker.inject(scene, prepared, name, number)
-            if outcome is None:
-                continue
-            problems, said = outcome
-            call = prepared[4][number - 1:number] if ACTIONS[name][1] == "files" else "a"
-            done.append((scene.name, name, call, number, problems))
-            if options.at:
-                print(f"{scene.name}, {name} at {number} ({call}): {problems or 'passed'}\n{said}")
+    for name, number in share:
+        outcome = worker.inject(scene, prepared, name, number)
+        if outcome is None:
+            continue
+        problems, said = outcome
+        calls = seen if ACTIONS[name][1] == "files" else ""
+        call = calls[number - 1:number] if calls else "a"
+        done.append((scene.name, name, call, number, problems))
+        if options.at:
+            print(f"{scene.name}, {name} at {number} ({call}): {problems or 'passed'}\n{said}")
     shutil.rmtree(prepared[0])
     return done
 
 
 def run_all(options, folder):
-    chosen = [scene_list.CONTROL] if options.control else scene_list.scenes()
-    chosen = [s for s in chosen if not options.scene or s.name in options.scene]
-    tasks = [(options, s, i, options.jobs) for s in chosen for i in range(options.jobs)]
+    scenes = [scene_list.CONTROL] if options.control else scene_list.scenes()
+    scenes = [s for s in scenes if not options.scene or s.name in options.scene]
     done = []
     with multiprocessing.Pool(options.jobs, start_worker, (options, folder)) as pool:
+        surveys = pool.map(survey, scenes, chunksize=1)
+        chosen = choose(options, scenes, surveys)
+        tasks = []
+        for scene, seen in zip(scenes, surveys):
+            points = [(name, n) for (s, name), numbers in chosen.items() if s == scene.name
+                      for n in numbers]
+            letters = "".join(what for what, _ in seen["files"])
+            tasks += [(options, scene, letters, points[i::options.jobs])
+                      for i in range(options.jobs) if points[i::options.jobs]]
         for share in pool.imap_unordered(work, tasks):
             report_failures(share)
             done += share
@@ -292,8 +338,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("program")
     parser.add_argument("shim")
-    parser.add_argument("--full", action="store_true", help="every point of every action")
-    parser.add_argument("--every", type=int, default=1, help="only every so manieth of them")
+    parser.add_argument("--places", action="store_true", help="the first call from every place")
+    parser.add_argument("--full", action="store_true", help="every call of every run")
     parser.add_argument("--scene", action="append")
     parser.add_argument("--action", action="append", choices=ACTIONS)
     parser.add_argument("--at", type=int, action="append", help="only these calls")

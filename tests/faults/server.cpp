@@ -16,7 +16,7 @@
 ///   output  root  kind  action  number  clock  limit  arguments...
 /// and is answered by a line
 ///   status  fired  count  list
-/// with the wait status, and the letters (files) or numbers (memory) of Record::list.
+/// with the wait status, and Record's letters (files) or numbers (memory), each with ":place".
 namespace faults {
 
 Plan plan;
@@ -63,7 +63,10 @@ int outcome(Call call, int usual) {
 
 int strike(Call call, int usual) {
   const unsigned n = ++record->count;
-  if (call != Call::memory && n <= Record::kMost) record->list[n - 1] = static_cast<unsigned>(call);
+  if (call != Call::memory && n <= Record::kMost) {
+    record->list[n - 1] = static_cast<unsigned>(call);
+    if (plan.number == 0) record->place[n - 1] = place_of_call();
+  }
   const bool goes_on = plan.action == Action::full || plan.action == Action::dead;
   if (n < plan.number || (n > plan.number && !goes_on)) return 0;
   // Whoever waits for the answer learns of it even if the next line is the process's last.
@@ -124,9 +127,10 @@ void answer(int status) {
     n = 0;
   };
   for (unsigned i = 0; i < entries && i < Record::kMost; ++i) {
-    n += plan.memory ? std::snprintf(text + n, 16, "%u ", record->list[i])
-                     : std::snprintf(text + n, 16, "%c", static_cast<char>(record->list[i]));
-    if (n > static_cast<int>(sizeof text) - 32) send();
+    n += plan.memory ? std::snprintf(text + n, 32, "%u:", record->list[i])
+                     : std::snprintf(text + n, 32, "%c:", static_cast<char>(record->list[i]));
+    n += std::snprintf(text + n, 32, "%u ", record->place[i]);
+    if (n > static_cast<int>(sizeof text) - 64) send();
   }
   text[n++] = '\n';
   send();
