@@ -10,21 +10,21 @@ function(add_module name)
   compile_together(flowslide_${name})
 endfunction()
 
-# compile_together(target): its files twelve at a time, where FLOWSLIDE_UNITY says so: most of what one
+# compile_together(target): its files 24 at a time, where FLOWSLIDE_UNITY says so: most of what one
 # costs is reading headers (docs/adr/0019). style.names keeps their names apart, apart(file ...) keeps
 # files out of it.
 function(compile_together target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${FLOWSLIDE_UNITY} UNITY_BUILD_BATCH_SIZE 12)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${FLOWSLIDE_UNITY} UNITY_BUILD_BATCH_SIZE 24)
 endfunction()
 function(apart)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# compile_fast(target ...): -O2 in place of -O3 for modules that read, write and tell, where nobody
+# compile_fast(target ...): -O1 in place of -O3 for modules that read, write and tell, where nobody
 # would notice what the last passes gain; the same bits.
 function(compile_fast)
   foreach(target IN LISTS ARGN)
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O2>)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endforeach()
 endfunction()
 

@@ -23,7 +23,7 @@ constexpr double kPerElementStep = 2.1e-7, kBytesPerShakenElement = 30e3;
 constexpr double kPerElementFrame = 1e-6;
 constexpr double kPerSeededPoint = 1.5e-5, kPerPointStep = 5e-8, kPerPointStep3d = 1.8e-7;
 constexpr double kBytesPerPoint = 1.5e3, kBytesPerPoint3d = 2e3;
-constexpr double kMotion = 0.1, kReport = 0.1, kFigures = 6.0, kReportBytes = 100e6;
+constexpr double kMotion = 0.1, kReport = 0.1, kDrawing = 6.0, kReportBytes = 100e6;
 
 constexpr double kUsualShaking = 30.0;  ///< of a motion of which nothing is known [s]
 constexpr double kOutputInterval = 0.1;
@@ -147,7 +147,7 @@ Work flow_work(const FlowConfig& flow, const MapConfig& map,
 Work motion_work() { return {.seconds = kMotion, .parallel = 0.0, .memory = kProgram}; }
 
 Work report_work(const ReportConfig& config) {
-  return {.seconds = kReport + (config.figures ? kFigures : 0.0),
+  return {.seconds = kReport + (config.figures ? kDrawing : 0.0),
           .parallel = 0.0,
           .memory = kReportBytes};
 }
