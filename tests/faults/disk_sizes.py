@@ -48,7 +48,7 @@ class Disk:
 
 def run_sized(worker, disk, scene, prepared, pages):
     """Exit code on a disk with room for so many pages more, and what is wrong afterwards."""
-    state, command, start, whole, _, _ = prepared
+    state, command, start, whole = prepared
     disk.resize(AMPLE)
     worker.restore(state)
     disk.resize(disk.used() + pages * PAGE)
