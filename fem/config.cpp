@@ -58,7 +58,7 @@ void Schema<WaterConfig>::describe(FieldVisitor& v, WaterConfig& c) {
       {{"x", Dim::length}, {"y", Dim::length}}};
   v.rows("table", c.table, columns,
          "water table from left to right, level beyond its ends; soil above it is dry, a surface "
-         "below it is under a pond");
+         "below it is under a pond; the pore pressure is zero at the first nodes at or above it");
   v.quantity("bulk_modulus", c.bulk_modulus, Dim::stress, {.above = 0.0},
              "bulk modulus of the water; lower for air in it");
   v.quantity("density", c.density, Dim::density, {.above = 0.0}, "density of the water");

@@ -9,6 +9,8 @@ constexpr std::array kConsequences{
     Consequence{"r_u reaches",
                 "What is noise there counts as liquefied all the same: it can make the zone, and "
                 "with it the runout, too large."},
+    Consequence{"dry soil:",
+                "Soil above the water flows as if it had liquefied: the runout may be too large."},
     Consequence{"no element has liquefied at the transfer",
                 "Nothing was weakened: the runout is what the dam does with the strength of its "
                 "soils, and a little more shaking may change it at once."},

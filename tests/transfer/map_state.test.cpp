@@ -442,6 +442,12 @@ audit: {enforce: false}
   bad.c_soft_ratio.reset();
   CHECK_THROWS_WITH(check(bad), Catch::Contains("c_soft_ratio is missing"));
   bad = c;
+  bad.materials["tailings"].liquefied->strength = 50e3;
+  CHECK_THROWS_WITH(check(bad), Catch::Contains("tailings.liquefied gives strength"));
+  bad.materials["tailings"].liquefied->strength.reset();
+  bad.materials["tailings"].liquefied->soft_strength = 5e3;
+  CHECK_THROWS_WITH(check(bad), Catch::Contains("tailings.liquefied gives soft_strength"));
+  bad = c;
   bad.box = {.left = 1.0, .right = 0.0, .bottom = {}, .top = {}};
   CHECK_THROWS_AS(check(bad), InputError);
   bad = c;

@@ -380,3 +380,25 @@ TEST_CASE("Without windows the depth is that of the whole liquefiable soil", "[t
   CHECK(zone.window_depth_max.at(0) == std::max(two.window_depth_max[0], two.window_depth_max[1]));
   CHECK(zone.window_depth_max.at(0) > 0.0);
 }
+
+TEST_CASE("Soil without water at rest that lies in the zone is told", "[transfer]") {
+  const Column column({4.0});
+  const Scratch folder;
+  const auto path = folder / "history.h5";
+  FemFrame gravity = column.history().gravity(), frame = column.history().frame(0);
+  for (std::size_t n = 0; n < column.mesh.num_nodes(); ++n)
+    if (column.mesh.nodes[n][1] >= 8.0) gravity.pore_pressure[n] = frame.pore_pressure[n] = 0.0;
+  FemHistoryWriter writer(path, column.mesh, {{"sand", 1, 2000.0}, {"rock", 2, 1500.0}}, {});
+  writer.set_gravity(gravity);
+  writer.append(frame);
+  writer.finish();
+  const auto told = [](const LiquefactionZone& zone, std::string_view begin) {
+    return std::ranges::any_of(zone.notes,
+                               [&](const std::string& n) { return n.starts_with(begin); });
+  };
+  ZoneConfig config = column_config();
+  CHECK(told(find_zone(FemHistory(path), config), "dry soil: 20 of the 60 m2 of the zone"));
+  config.zone = ZoneExtent::liquefied;
+  CHECK_FALSE(told(find_zone(FemHistory(path), config), "dry soil"));
+  CHECK_FALSE(told(column.find(column_config()), "dry soil"));
+}

@@ -154,6 +154,29 @@ TEST_CASE("Water downstream of a section is told") {
   CHECK_THAT(with(30.0, 25.0), Contains("5 m above the ground at the downstream end"));
 }
 
+TEST_CASE("A water table between rows of nodes is told if it moves by a tenth of the height") {
+  const auto with = [](double table, std::int32_t rows) {
+    FemConfig c = sandy();
+    c.water->table = {{0.0, table}};
+    Findings found;
+    check_water(c, ground(10, rows).mesh, found);
+    return warnings(found);
+  };
+  CHECK(with(15.0, 4).empty());
+  CHECK_THAT(with(11.0, 4),
+             Contains("(10, 15) m stands 4 m higher") && Contains("by up to 39 kPa"));
+  CHECK(with(13.5, 4).empty());
+  CHECK(with(11.0, 20).empty());
+}
+
+TEST_CASE("Water downstream that stands higher than upstream is told to be missing in the flow") {
+  FemConfig c = sandy();
+  c.water->table = {{0.0, 18.0}, {100.0, 26.0}};
+  Findings found;
+  check_water(c, ground(10, 10).mesh, found);
+  CHECK_THAT(warnings(found), Contains("flow upstream") && Contains("computed in air"));
+}
+
 TEST_CASE("Where nothing has liquefied, the largest r_u is told") {
   LiquefactionZone zone;
   zone.r_u_node = {kUnset, 0.12, 0.31, 0.05};

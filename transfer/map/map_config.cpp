@@ -116,6 +116,12 @@ void check(const MapConfig& c) {
           "second is '{}'",
           source, name);
     make_material(m.law, name);
+    validate(
+        !m.liquefied || !(m.liquefied->strength || m.liquefied->soft_strength),
+        "map: materials.{}.liquefied gives {} (it would change nothing: every point has the S_r "
+        "that the zone found for it, and c_soft = c_soft_ratio S_r) change `strength` of "
+        "transfer.zone, or c_soft_ratio",
+        name, m.liquefied && m.liquefied->strength ? "strength" : "soft_strength");
     validate(!m.liquefied || c.c_soft_ratio,
              "map: c_soft_ratio is missing (material '{}' may liquefy and softens to c_soft = "
              "c_soft_ratio S_r). Add c_soft_ratio, for example 0.5",

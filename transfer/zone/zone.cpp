@@ -146,9 +146,35 @@ void note_large_r_u(LiquefactionZone& zone, const ZoneRecorder& record) {
   const auto n = static_cast<std::size_t>(r.node);
   zone.notes.push_back(fmt::format(
       "r_u reaches {:.2g} at node {} ({:.6g}, {:.6g}) m at {:.4g} s: more than the soil above "
-      "weighs, noise of the pore pressure there or too small an initial stress",
+      "weighs, noise of the pore pressure there or too small an initial stress. What is noise counts "
+      "as liquefied all the same and can make the zone too large: compare `zone: liquefied` and "
+      "`columns.neighbours`, and look at r_u in the report",
       r.value, record.mesh().node_tags[n], record.mesh().nodes[n][0], record.mesh().nodes[n][1],
       r.time));
+}
+
+/// Soil without water at rest has nothing that could liquefy it.
+void note_dry(LiquefactionZone& zone, const QuadMesh& mesh, const RuReference& reference,
+              ZoneExtent extent) {
+  if (!found_from_r_u(extent)) return;
+  double all = 0.0, dry = 0.0;
+  for (std::size_t e = 0; e < mesh.num_elements(); ++e) {
+    if (zone.liquefied[e] == 0) continue;
+    const double a = area(corners(mesh, mesh.nodes, e));
+    all += a;
+    const auto& nodes = mesh.elements[e];
+    if (std::all_of(nodes.begin(), nodes.end(), [&](std::int32_t n) {
+          return !(reference.u_0[static_cast<std::size_t>(n)] > 0.0);
+        }))
+      dry += a;
+  }
+  constexpr double kSome = 0.05;
+  if (dry > kSome * all)
+    zone.notes.push_back(fmt::format(
+        "dry soil: {:.0f} of the {:.0f} m2 of the zone had no pore pressure at rest, cannot liquefy, "
+        "and flows with a residual strength all the same, as everything above what has liquefied "
+        "does. `zone: liquefied` takes the elements alone whose r_u exceeds the threshold",
+        dry, all));
 }
 
 /// Averages over less than the time between two recorded states are none.
@@ -212,6 +238,7 @@ LiquefactionZone find_zone(const FemHistory& history, const ZoneConfig& config,
   const ZoneShape shape = zone_shape(config, mesh, parts.soil, zone.r_u_node);
   flag_elements(zone, mesh, parts, shape, config);
   note_strong(zone, mesh);
+  note_dry(zone, mesh, reference, config.zone);
   add_depths(zone, record, parts, shape, config);
   return zone;
 }

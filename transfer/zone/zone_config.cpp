@@ -73,7 +73,8 @@ void Schema<ZoneConfig>::describe(FieldVisitor& v, ZoneConfig& c) {
   v.rows("line", c.line, kPoint,
          "lower boundary for zone: line, x rising; level to the left, its last segment goes on");
   v.rows("polygon", c.polygon, kPoint, "corners for zone: polygon, in order");
-  v.group("strength", c.strength, "residual strength of the liquefied soil");
+  v.group("strength", c.strength,
+          "residual strength of the liquefied soil, of all materials alike");
 }
 
 namespace {

@@ -69,32 +69,41 @@ void check_absorbing(const FlowConfig& flow, const Soil& soil, Findings& found) 
   refuse_if("bottom", a.bottom, [&](const Vec2& c) { return c[1] < *a.bottom; });
 }
 
-/// Part of the soil that has neither soil nor ground below it: a step drawn short of the toe.
-void check_overhang(const FlowConfig& flow, const Soil& soil, Findings& found) {
+/// Soil with neither soil nor ground below it: ground drawn too low, or a step short of the toe.
+void check_hanging(const FlowConfig& flow, const Soil& soil, Findings& found) {
   if (!(soil.largest > 0.0)) return;
   const double width = std::max(2.0 * std::sqrt(soil.largest), 2.0 * flow.cell);
   std::map<std::int64_t, Vec2> lowest;  // of each strip
-  for (const Vec2& c : soil.centres) {
+  for (const Vec2& c : soil.feet) {
     const auto strip = static_cast<std::int64_t>(std::floor((c[0] - soil.all.left) / width));
     const auto at = lowest.try_emplace(strip, c).first;
     if (c[1] < at->second[1]) at->second = c;
   }
-  double most = 0.0;
+  double most = 0.0, least = std::numeric_limits<double>::infinity();
   Vec2 where{};
   for (const auto& [strip, c] : lowest) {
     const double above = c[1] - ground_height(flow.ground.surface, c[0]);
+    least = std::min(least, above);
     if (above > most) {
       most = above;
       where = c;
     }
   }
-  if (most > width + 0.5 * soil.all.height())
-    warn(
-        found,
-        "ground.surface: the lowest soil at x = {:.6g} m, y = {:.6g} m hangs {:.3g} m above it, and "
-        "will fall before it flows. Does the step of the ground lie at the end of the soil, x = "
-        "{:.6g} m?",
-        where[0], where[1], most, soil.all.right);
+  // What falls less than a cell meets the ground at once: its points feel it from there on.
+  if (!(most > flow.cell)) return;
+  warn(found,
+       "ground.surface: the lowest soil at x = {:.6g} m, y = {:.6g} m hangs {:.3g} m above it, and "
+       "will fall before it flows. {}",
+       where[0], where[1], most,
+       least > flow.cell
+           ? fmt::format(
+                 "All of the soil hangs by {:.3g} m or more: is the ground the bottom of the "
+                 "box of the transfer?",
+                 least)
+           : fmt::format(
+                 "Draw the ground along the bottom of the soil, and a step of it at the end, "
+                 "x = {:.6g} m.",
+                 soil.all.right));
 }
 
 /// Ground that a flow cannot climb, near the toe.
@@ -146,9 +155,11 @@ Soil soil_of(const SectionMesh& section, const MapConfig& config,
     soil.area += area(quad);
     soil.largest = std::max(soil.largest, area(quad));
     soil.centres.push_back(centre);
+    Vec2& foot = soil.feet.emplace_back(centre);
     for (const Vec2& p : quad) {
       const Vec2 clamped{std::clamp(p[0], box.xmin, box.xmax),
                          std::clamp(p[1], box.ymin, box.ymax)};
+      foot[1] = std::min(foot[1], clamped[1]);
       add(soil.all, clamped);
       if (found->second) add(soil.counted, clamped);
     }
@@ -173,11 +184,13 @@ void check_toe(double toe, const FlowConfig& flow, const Soil& soil, Findings& f
          "runout is counted from there: a flow of up to {:g} m will be reported as 0.",
          toe, beyond, e.right, beyond);
   if (toe <= e.left || -beyond > e.height())
-    refuse(found,
-           "toe: x = {:g} m lies {:g} m inside the soil, which ends at x = {:g} m and is {:g} m "
-           "high (so much would count as runout before anything moves) give the x of the toe of "
-           "the section",
-           toe, -beyond, e.right, e.height());
+    refuse(
+        found,
+        "toe: x = {:g} m lies {:g} m inside the soil, which ends at x = {:g} m and is {:g} m "
+        "high (so much would count as runout before anything moves) give the x of the toe of "
+        "the section; where soil goes on beyond the toe, as level ground does, make it a material "
+        "of its own with `counts_for_runout: false`",
+        toe, -beyond, e.right, e.height());
   else if (-beyond > flow.cell)
     warn(found,
          "toe: x = {:g} m lies {:g} m inside the soil, which ends at x = {:g} m: so much counts as "
@@ -267,11 +280,10 @@ void check_edges(const FlowConfig& flow, const Soil& soil, Findings& found) {
 
 void check_ground(const FlowConfig& flow, const Soil& soil, Findings& found) {
   if (flow.ground.terrain || flow.absorbing.bottom || soil.centres.empty()) return;
-  double deepest = 0.0, lowest = std::numeric_limits<double>::infinity();
+  double deepest = 0.0;
   Vec2 where{};
   for (const Vec2& c : soil.centres) {
     const double above = c[1] - ground_height(flow.ground.surface, c[0]);
-    lowest = std::min(lowest, above);
     if (-above > deepest) {
       deepest = -above;
       where = c;
@@ -282,14 +294,7 @@ void check_ground(const FlowConfig& flow, const Soil& soil, Findings& found) {
            "ground.surface: soil at ({:.6g}, {:.6g}) m lies {:.3g} m below it (it would be thrown "
            "out) lower the surface or raise the box of the transfer",
            where[0], where[1], deepest);
-  const double free = lowest - 2.0 * flow.cell;
-  if (free > 0.0 && free > 0.5 * soil.all.height())
-    warn(found,
-         "ground.surface: the lowest soil hangs about {:.3g} m above it and will fall before it "
-         "flows.",
-         lowest);
-  else
-    check_overhang(flow, soil, found);
+  check_hanging(flow, soil, found);
   check_rise(flow, soil, found);
 }
 

@@ -220,6 +220,32 @@ void check_soil(const std::string& where, const FemMaterialConfig& m, const FemC
         "horizontal over vertical effective stress at rest is about 1 - sin(phi)", found);
 }
 
+/// The pore pressure is zero at the first nodes at or above the table, so that it stands at them.
+void check_table_rows(const FemConfig& fem, const QuadMesh& mesh, Findings& found) {
+  double most = 0.0;
+  Vec2 where{};
+  for (const auto& element : mesh.elements) {
+    const auto above = [&](std::int32_t n) {
+      const Vec2& p = mesh.nodes[static_cast<std::size_t>(n)];
+      return p[1] - fem::water_level(*fem.water, p[0]);
+    };
+    if (std::none_of(element.begin(), element.end(), [&](auto n) { return above(n) < 0.0; }))
+      continue;
+    for (const std::int32_t n : element)
+      if (above(n) > most) {
+        most = above(n);
+        where = mesh.nodes[static_cast<std::size_t>(n)];
+      }
+  }
+  constexpr double kMuch = 0.1;  // of the height of the section
+  if (most > kMuch * extent_of(mesh).height())
+    found.warnings.push_back(fmt::format(
+        "water.table: the first node above it at ({:.4g}, {:.4g}) m stands {:.2g} m higher. The pore "
+        "pressure is zero there and not at the table, so the soil below is wetter than given, by up "
+        "to {:.2g} kPa. Let edges of blocks follow the table, or take smaller elements there.",
+        where[0], where[1], most, 1e-3 * most * fem.water->density * fem.gravity.acceleration));
+}
+
 /// Water on the side to which the flow goes.
 void check_water_downstream(const FemConfig& fem, const QuadMesh& mesh, Findings& found) {
   const Extent e = extent_of(mesh);
@@ -234,10 +260,11 @@ void check_water_downstream(const FemConfig& fem, const QuadMesh& mesh, Findings
         "water.table: stands at y = {:.4g} m on the right and at {:.4g} m on the left: water would "
         "flow upstream, as flows go to the right. Is the table mirrored, or the section?",
         right, left));
-  else if (right > ground + kDeep * e.height())
+  if (right > ground + kDeep * e.height())
     found.warnings.push_back(
         fmt::format("water.table: stands {:.3g} m above the ground at the downstream end: the toe "
-                    "is under water. The runout is computed in air, without that water.",
+                    "is under water. The runout is computed in air: that water holds nothing back "
+                    "any more, and what it pressed on slides as if it had been let out at once.",
                     right - ground));
 }
 
@@ -341,6 +368,7 @@ void check_water(const FemConfig& fem, const QuadMesh& mesh, Findings& found) {
         "of it is under water.",
         highest, highest - e.top));
   check_water_downstream(fem, mesh, found);
+  check_table_rows(fem, mesh, found);
   if (!(highest > e.bottom))
     found.warnings.push_back(fmt::format(
         "water.table: stands below the section (at most at y = {:.4g} m, the section begins at "

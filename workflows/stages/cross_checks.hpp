@@ -49,6 +49,7 @@ struct Soil {
   double area = 0.0;          ///< [m2]
   double largest = 0.0;       ///< area of its largest element [m2]
   std::vector<Vec2> centres;  ///< of its elements, inside the box
+  std::vector<Vec2> feet;     ///< below them, as low as the element's lowest corner in the box
 };
 
 /// Throws InputError for a name that the section does not have.

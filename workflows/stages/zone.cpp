@@ -22,7 +22,8 @@ std::vector<std::string> zone_warnings(const LiquefactionZone& zone, const ZoneC
   }
   std::vector<std::string> warnings;
   for (const std::string& note : zone.notes)
-    if (note.starts_with("r_u reaches") || note.starts_with("automatic."))
+    if (note.starts_with("r_u reaches") || note.starts_with("automatic.") ||
+        note.starts_with("dry soil"))
       warnings.push_back(note + ".");
   if (liquefied == 0)
     warnings.push_back("no element has liquefied at the transfer: nothing weakens the dam." +
