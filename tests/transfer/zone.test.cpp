@@ -285,7 +285,26 @@ TEST_CASE("stress outside the strength table is noted", "[transfer]") {
   const LiquefactionZone zone = Column({4.0}).find(config);
   // 5 and 15 kPa below, 45 and 55 kPa above.
   REQUIRE(zone.notes.size() == 2);
-  CHECK_THAT(zone.notes[1], Catch::StartsWith("40 of 60") && Catch::Contains("20 to 40 kPa"));
+  CHECK_THAT(zone.notes[1],
+             Catch::StartsWith("most of the zone: 40 of 60") && Catch::Contains("20 to 40 kPa"));
+}
+
+TEST_CASE("a material can have a strength table of its own", "[transfer]") {
+  ZoneConfig config = column_config();
+  config.liquefiable = {"sand", "rock"};
+  config.zone = ZoneExtent::all;
+  config.strength.materials["rock"].table = {{0.0, 2e3}, {100e3, 22e3}};
+  const Column column({4.0});
+  const LiquefactionZone zone = column.find(config);
+  for (std::size_t e = 0; e < column.mesh.num_elements(); ++e) {
+    const double common = 1e3 + 0.1 * zone.sigma_v0[e];
+    CHECK(zone.strength[e] == Approx(column.mesh.element_material[e] == 2 ? 2.0 * common : common));
+  }
+  config.liquefiable = {"sand"};
+  CHECK_THROWS_WITH(check(config), Catch::Contains("rock is not among liquefiable (sand)"));
+  config.liquefiable = {"sand", "rock"};
+  config.strength.materials["rock"].table.clear();
+  CHECK_THROWS_WITH(check(config), Catch::Contains("strength.materials.rock.table is empty"));
 }
 
 TEST_CASE("residual strength above the effective stress of its element is noted", "[transfer]") {

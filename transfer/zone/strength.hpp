@@ -2,6 +2,8 @@
 #include "config/schema.hpp"
 
 #include <array>
+#include <map>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -12,8 +14,16 @@ namespace flowslide {
 enum class StrengthRule { interpolated, binned };
 inline constexpr std::array<std::string_view, 2> kStrengthRules{"interpolated", "binned"};
 
+/// Rows [sigma'_v0, S_r], both in Pa, sigma'_v0 rising.
+using StrengthTable = std::vector<std::vector<double>>;
+
+struct MaterialStrength {
+  StrengthTable table;
+};
+
 struct StrengthConfig {
-  std::vector<std::vector<double>> table;  ///< rows [sigma'_v0, S_r], both in Pa, sigma'_v0 rising
+  StrengthTable table;
+  std::map<std::string, MaterialStrength> materials = {};  ///< their own tables, in its place
   StrengthRule rule = StrengthRule::interpolated;
   double bin_width = 50e3;  ///< [Pa]
   double last_bin = 300e3;  ///< lower edge of the open last bin [Pa], a multiple of bin_width
@@ -21,6 +31,9 @@ struct StrengthConfig {
 
 /// Throws InputError: at least one row, sigma'_v0 rising, positive strengths, whole bins.
 void check(const StrengthConfig& config);
+
+/// What holds for a material: its own table in place of the common one, where it has one.
+StrengthConfig strength_of(const StrengthConfig& config, const std::string& material);
 
 struct LayerStrength {
   double strength = 0.0;  ///< S_r [Pa]
@@ -31,6 +44,12 @@ struct LayerStrength {
 /// S_r and layer at sigma_v0 [Pa], compression positive. Bins are [k w, (k+1) w); the last one is
 /// open. Tension counts as zero stress. Expects a checked config and a finite stress.
 LayerStrength strength_at(const StrengthConfig& config, double sigma_v0);
+
+template <>
+struct Schema<MaterialStrength> {
+  static constexpr std::string_view doc = "Residual strength of one material.";
+  static void describe(FieldVisitor& v, MaterialStrength& c);
+};
 
 template <>
 struct Schema<StrengthConfig> {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -32,7 +33,11 @@ std::vector<double> r_u_of_zone(const FemHistory& history, const RuReference& re
 }
 
 void flag_elements(LiquefactionZone& zone, const QuadMesh& mesh, const ZoneParts& parts,
-                   const ZoneShape& shape, const ZoneConfig& config) {
+                   const std::vector<HistoryMaterial>& materials, const ZoneShape& shape,
+                   const ZoneConfig& config) {
+  std::map<std::int32_t, StrengthConfig> strengths;
+  for (const HistoryMaterial& m : materials)
+    strengths[m.tag] = strength_of(config.strength, m.name);
   zone.liquefied.assign(mesh.num_elements(), 0);
   zone.strength.assign(mesh.num_elements(), kUnset);
   zone.layer.assign(mesh.num_elements(), -1);
@@ -45,7 +50,7 @@ void flag_elements(LiquefactionZone& zone, const QuadMesh& mesh, const ZoneParts
     if (config.zone != ZoneExtent::all && !contains(shape, centre)) continue;
     if (config.zone == ZoneExtent::liquefied && !(zone.r_u_element[e] > config.r_u.threshold))
       continue;
-    const LayerStrength s = strength_at(config.strength, zone.sigma_v0[e]);
+    const LayerStrength s = strength_at(strengths.at(mesh.element_material[e]), zone.sigma_v0[e]);
     zone.liquefied[e] = 1;
     zone.strength[e] = s.strength;
     zone.layer[e] = s.layer;
@@ -54,11 +59,15 @@ void flag_elements(LiquefactionZone& zone, const QuadMesh& mesh, const ZoneParts
   }
   if (liquefied == 0) zone.notes.emplace_back("no element has liquefied at the transfer time");
   if (clamped > 0) {
+    const StrengthTable& table = config.strength.table;
+    const std::string ends =
+        config.strength.materials.empty()
+            ? fmt::format(" ({:g} to {:g} kPa)", table.front()[0] * 1e-3, table.back()[0] * 1e-3)
+            : ", that of their material";
     zone.notes.push_back(fmt::format(
-        "{} of {} liquefied elements lie outside strength.table ({:g} to {:g} kPa): its "
-        "end values were used",
-        clamped, liquefied, config.strength.table.front()[0] * 1e-3,
-        config.strength.table.back()[0] * 1e-3));
+        "{}{} of {} liquefied elements lie outside strength.table{}: its end values decide their "
+        "strength",
+        2 * clamped > liquefied ? "most of the zone: " : "", clamped, liquefied, ends));
   }
 }
 
@@ -236,7 +245,7 @@ LiquefactionZone find_zone(const FemHistory& history, const ZoneConfig& config,
   note_short_averages(zone, config.transfer.automatic);
   note_truncated(zone, record);
   const ZoneShape shape = zone_shape(config, mesh, parts.soil, zone.r_u_node);
-  flag_elements(zone, mesh, parts, shape, config);
+  flag_elements(zone, mesh, parts, history.materials(), shape, config);
   note_strong(zone, mesh);
   note_dry(zone, mesh, reference, config.zone);
   add_depths(zone, record, parts, shape, config);

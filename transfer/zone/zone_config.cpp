@@ -3,8 +3,11 @@
 #include "core/check.hpp"
 #include "model/zone.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include <fmt/format.h>
 
 namespace flowslide {
 
@@ -73,8 +76,7 @@ void Schema<ZoneConfig>::describe(FieldVisitor& v, ZoneConfig& c) {
   v.rows("line", c.line, kPoint,
          "lower boundary for zone: line, x rising; level to the left, its last segment goes on");
   v.rows("polygon", c.polygon, kPoint, "corners for zone: polygon, in order");
-  v.group("strength", c.strength,
-          "residual strength of the liquefied soil, of all materials alike");
+  v.group("strength", c.strength, "residual strength of the liquefied soil");
 }
 
 namespace {
@@ -130,6 +132,12 @@ void check(const ZoneConfig& c) {
            "zone: automatic with when: gravity (r_u is zero in the gravity state, nothing would be "
            "liquefied) write zone: all, or choose a later time");
   check(c.strength);
+  for (const auto& [name, own] : c.strength.materials)
+    validate(
+        std::ranges::find(c.liquefiable, name) != c.liquefiable.end(),
+        "strength.materials.{0}: {0} is not among liquefiable ({1}) (its table would not be used) "
+        "correct the name, or add it there",
+        name, fmt::join(c.liquefiable, ", "));
 }
 
 }  // namespace flowslide

@@ -38,30 +38,40 @@ Extent extent_of(const QuadMesh& mesh) {
   return e;
 }
 
-void check_strength(const StrengthConfig& strength, Findings& found) {
+namespace {
+
+void check_strengths(const std::string& key, const StrengthTable& table, Findings& found) {
   // Liquefied soil keeps 0.03 to 0.3 of its initial effective stress; sand that has not liquefied
   // has 0.6 to 0.8. Near the surface the ratio says nothing.
   constexpr double kShallow = 10e3, kHigh = 0.5, kLow = 0.01;
-  for (std::size_t i = 0; i < strength.table.size(); ++i) {
-    const double stress = strength.table[i][0], s = strength.table[i][1], ratio = s / stress;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const double stress = table[i][0], s = table[i][1], ratio = s / stress;
     if (s > kShallow && ratio > 1.0) {
       found.errors.push_back(fmt::format(
-          "strength.table row {}: S_r of {:g} kPa at sigma'_v0 of {:g} kPa is {:.3g} times the "
+          "{} row {}: S_r of {:g} kPa at sigma'_v0 of {:g} kPa is {:.3g} times the "
           "stress (liquefied soil keeps 0.03 to 0.3 of it, and no sand has more than 1) check the "
           "units",
-          i + 1, s / 1e3, stress / 1e3, ratio));
+          key, i + 1, s / 1e3, stress / 1e3, ratio));
     } else if (stress >= kShallow && !(ratio >= kLow && ratio <= kHigh)) {
-      found.warnings.push_back(fmt::format(
-          "strength.table row {}: S_r of {:g} kPa at sigma'_v0 of {:g} kPa is {:.3g} times the "
-          "stress; liquefied soil keeps 0.03 to 0.3 of it.",
-          i + 1, s / 1e3, stress / 1e3, ratio));
+      found.warnings.push_back(
+          fmt::format("{} row {}: S_r of {:g} kPa at sigma'_v0 of {:g} kPa is {:.3g} times the "
+                      "stress; liquefied soil keeps 0.03 to 0.3 of it.",
+                      key, i + 1, s / 1e3, stress / 1e3, ratio));
     }
-    if (i > 0 && s < strength.table[i - 1][1])
-      found.warnings.push_back(fmt::format(
-          "strength.table row {}: S_r falls to {:g} kPa from {:g} kPa in the row before, under a "
-          "larger stress: deeper soil would be weaker. Are the columns in their order?",
-          i + 1, s / 1e3, strength.table[i - 1][1] / 1e3));
+    if (i > 0 && s < table[i - 1][1])
+      found.warnings.push_back(
+          fmt::format("{} row {}: S_r falls to {:g} kPa from {:g} kPa in the row before, under a "
+                      "larger stress: deeper soil would be weaker. Are the columns in their order?",
+                      key, i + 1, s / 1e3, table[i - 1][1] / 1e3));
   }
+}
+
+}  // namespace
+
+void check_strength(const StrengthConfig& strength, Findings& found) {
+  check_strengths("strength.table", strength.table, found);
+  for (const auto& [name, own] : strength.materials)
+    check_strengths(fmt::format("strength.materials.{}.table", name), own.table, found);
 }
 
 void check_r_u(const RuConfig& r_u, Findings& found) {
