@@ -312,6 +312,15 @@ TEST_CASE("a section is drawn before anything runs", "[cli]") {
   CHECK(other.code == 2);
   CHECK_THAT(other.err, Contains(".png, .svg and .pdf"));
   CHECK_FALSE(std::filesystem::exists(scratch / "section.bmp"));
+  const std::vector<std::pair<std::string, std::string>> no_python{
+      {"/nope", "there is no program '/nope'"},
+      {"/bin/false", "'/bin/false' cannot draw them (it takes Python 3"},
+      {"/bin/true", "'/bin/true' ran and left none"}};
+  for (const auto& [python, text] : no_python) {
+    const Outcome none = call(scratch, "plot " + file + " --out s.png --python " + python);
+    CHECK(none.code == 4);
+    CHECK_THAT(none.err, Contains(text) && Contains("--python") && !Contains("report"));
+  }
 }
 
 TEST_CASE("a point is driven from its file", "[cli]") {
