@@ -2,6 +2,7 @@
 
 #include "config/yaml.hpp"
 #include "core/check.hpp"
+#include "core/units.hpp"
 
 #include <algorithm>
 #include <string_view>
@@ -40,10 +41,10 @@ bool parted(const std::vector<std::string>& words, const std::string& left_over)
   return at - words.begin() >= 2 && *(at - 2) == "--set";
 }
 
-std::string why_blank(const std::string& name) {
-  if (name.find_first_not_of(" \t\r\n") != std::string::npos) return {};
-  return fmt::format("is {} (a name is expected; an unset variable of the shell?)",
-                     name.empty() ? "empty" : "blank");
+std::string why_blank(const std::string& text, const char* expected) {
+  if (text.find_first_not_of(" \t\r\n") != std::string::npos) return {};
+  return fmt::format("is {} ({} is expected; an unset variable of the shell?)",
+                     text.empty() ? "empty" : "blank", expected);
 }
 
 }  // namespace
@@ -93,12 +94,27 @@ std::string usage_problem(const CLI::App& app, int argc, char** argv,
                      fmt::join(in_order, " "), why);
 }
 
-CLI::Validator input_name() { return CLI::Validator(why_blank, ""); }
+CLI::Validator input_name() {
+  return CLI::Validator([](const std::string& name) { return why_blank(name, "a name"); }, "");
+}
+
+void check_unit(const std::optional<std::string>& unit) {
+  if (!unit) return;
+  try {
+    (void)unit_factor(*unit, Dim::acceleration);
+  } catch (const InputError& e) {
+    throw InputError(fmt::format("--unit: {}", e.what()));
+  }
+}
+
+CLI::Validator some_value() {
+  return CLI::Validator([](const std::string& text) { return why_blank(text, "a value"); }, "");
+}
 
 CLI::Validator output_name() {
   return CLI::Validator(
       [](const std::string& name) -> std::string {
-        if (const std::string why = why_blank(name); !why.empty()) return why;
+        if (const std::string why = why_blank(name, "a name"); !why.empty()) return why;
         if (name[0] == '~')
           return fmt::format("'{}': '~' is not expanded; write the folder in full", name);
         return {};
