@@ -68,11 +68,11 @@ void print(const Json& json, const std::string& indent) {
     } else if (value.is_array() && !value.empty() && value[0].is_string()) {
       fmt::print("{}{}\n", indent, key);
       for (const Json& line : value)
-        fmt::print("{}  {}\n", indent, printable(line.get<std::string>()));
+        print_wrapped(stdout, indent + "  ", printable(line.get<std::string>()));
     } else if (value.is_string()) {
-      fmt::print("{}{:<24} {}\n", indent, key, printable(value.get<std::string>()));
+      print_row(stdout, fmt::format("{}{:<24} ", indent, key), printable(value.get<std::string>()));
     } else if (!value.is_array() || !value.empty()) {
-      fmt::print("{}{:<24} {}\n", indent, key, shown(value));
+      print_row(stdout, fmt::format("{}{:<24} ", indent, key), shown(value));
     }
   }
 }
