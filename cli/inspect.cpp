@@ -100,7 +100,8 @@ void add_inspect(CLI::App& app, Command& action) {
       // Problems of a run folder are files that are not what was written, those of a text are its
       // own; results only remember what was odd about where they come from.
       if (result["kind"] == "run") return 4;
-      return result["kind"] == "recorder" || result["kind"] == "workflow" ? 2 : 0;
+      const std::string kind = result["kind"];
+      return kind == "recorder" || kind == "workflow" || kind == "terrain" ? 2 : 0;
     };
   });
 }

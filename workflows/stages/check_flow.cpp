@@ -69,34 +69,6 @@ void check_absorbing(const FlowConfig& flow, const Soil& soil, Findings& found) 
   refuse_if("bottom", a.bottom, [&](const Vec2& c) { return c[1] < *a.bottom; });
 }
 
-/// Part of the soil that has neither soil nor ground below it: a step drawn short of the toe.
-void check_overhang(const FlowConfig& flow, const Soil& soil, Findings& found) {
-  if (!(soil.largest > 0.0)) return;
-  const double width = std::max(2.0 * std::sqrt(soil.largest), 2.0 * flow.cell);
-  std::map<std::int64_t, Vec2> lowest;  // of each strip
-  for (const Vec2& c : soil.centres) {
-    const auto strip = static_cast<std::int64_t>(std::floor((c[0] - soil.all.left) / width));
-    const auto at = lowest.try_emplace(strip, c).first;
-    if (c[1] < at->second[1]) at->second = c;
-  }
-  double most = 0.0;
-  Vec2 where{};
-  for (const auto& [strip, c] : lowest) {
-    const double above = c[1] - ground_height(flow.ground.surface, c[0]);
-    if (above > most) {
-      most = above;
-      where = c;
-    }
-  }
-  if (most > width + 0.5 * soil.all.height())
-    warn(
-        found,
-        "ground.surface: the lowest soil at x = {:.6g} m, y = {:.6g} m hangs {:.3g} m above it, and "
-        "will fall before it flows. Does the step of the ground lie at the end of the soil, x = "
-        "{:.6g} m?",
-        where[0], where[1], most, soil.all.right);
-}
-
 /// Ground that a flow cannot climb, near the toe.
 void check_rise(const FlowConfig& flow, const Soil& soil, Findings& found) {
   const Extent& e = soil.counted;
@@ -267,11 +239,10 @@ void check_edges(const FlowConfig& flow, const Soil& soil, Findings& found) {
 
 void check_ground(const FlowConfig& flow, const Soil& soil, Findings& found) {
   if (flow.ground.terrain || flow.absorbing.bottom || soil.centres.empty()) return;
-  double deepest = 0.0, lowest = std::numeric_limits<double>::infinity();
+  double deepest = 0.0;
   Vec2 where{};
   for (const Vec2& c : soil.centres) {
     const double above = c[1] - ground_height(flow.ground.surface, c[0]);
-    lowest = std::min(lowest, above);
     if (-above > deepest) {
       deepest = -above;
       where = c;
@@ -282,15 +253,46 @@ void check_ground(const FlowConfig& flow, const Soil& soil, Findings& found) {
            "ground.surface: soil at ({:.6g}, {:.6g}) m lies {:.3g} m below it (it would be thrown "
            "out) lower the surface or raise the box of the transfer",
            where[0], where[1], deepest);
-  const double free = lowest - 2.0 * flow.cell;
-  if (free > 0.0 && free > 0.5 * soil.all.height())
-    warn(found,
-         "ground.surface: the lowest soil hangs about {:.3g} m above it and will fall before it "
-         "flows.",
-         lowest);
-  else
-    check_overhang(flow, soil, found);
+  check_hanging(
+      "ground.surface", [&](double x) { return ground_height(flow.ground.surface, x); }, flow, soil,
+      fmt::format("Does the step of the ground lie at the end of the soil, x = {:.6g} m?",
+                  soil.all.right),
+      found);
   check_rise(flow, soil, found);
+}
+
+void check_hanging(const std::string& setting, const std::function<double(double)>& height,
+                   const FlowConfig& flow, const Soil& soil, const std::string& hint,
+                   Findings& found) {
+  if (!(soil.largest > 0.0)) return;
+  const double element = std::sqrt(soil.largest);
+  const double width = 2.0 * std::max(element, flow.cell);
+  std::map<std::int64_t, Vec2> lowest;  // of each strip
+  for (const Vec2& c : soil.centres) {
+    const auto strip = static_cast<std::int64_t>(std::floor((c[0] - soil.all.left) / width));
+    const auto at = lowest.try_emplace(strip, c).first;
+    if (c[1] < at->second[1]) at->second = c;
+  }
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  Vec2 where{};
+  for (const auto& [strip, c] : lowest) {
+    const double above = c[1] - height(c[0]);
+    least = std::min(least, above);
+    if (above > most) {
+      most = above;
+      where = c;
+    }
+  }
+  // The centre of an element lies half of it above its bottom.
+  if (least > flow.cell + element)
+    warn(found,
+         "{}: the lowest soil hangs about {:.3g} m above it, and will fall before it flows. {}",
+         setting, least, hint);
+  else if (most > width + 0.5 * soil.all.height())
+    warn(found,
+         "{}: the lowest soil at x = {:.6g} m, y = {:.6g} m hangs {:.3g} m above it, and will fall "
+         "before it flows. {}",
+         setting, where[0], where[1], most, hint);
 }
 
 }  // namespace flowslide
