@@ -442,6 +442,15 @@ audit: {enforce: false}
   bad.c_soft_ratio.reset();
   CHECK_THROWS_WITH(check(bad), Catch::Contains("c_soft_ratio is missing"));
   bad = c;
+  bad.materials["foundation"].law = {};
+  bad.materials["foundation"].law.of<ResidualStrength>() =
+      ResidualStrength::Params{.youngs_modulus = 20e6, .poisson_ratio = 0.45, .strength = 5e3};
+  CHECK_THROWS_WITH(
+      check(bad),
+      Catch::Contains("materials.foundation.residual_strength: 'soft_strength' is missing"));
+  bad.materials["foundation"].law.of<ResidualStrength>()->soft_strength = 5e3;
+  CHECK_NOTHROW(check(bad));
+  bad = c;
   bad.box = {.left = 1.0, .right = 0.0, .bottom = {}, .top = {}};
   CHECK_THROWS_AS(check(bad), InputError);
   bad = c;
