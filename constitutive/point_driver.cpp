@@ -152,6 +152,10 @@ ShearTest run_simple_shear(PointUnderTest& point, const SimpleShear& test) {
   ShearRecord now = r.records.front();
   double direction = 1.0;
   while (now.half_cycles < test.max_half_cycles) {
+    validate(r.records.size() <= test.max_steps,
+             "simple_shear: {} steps, and the test is at cycle {} of {} (each step is kept) raise "
+             "strain_step, or lower max_cycles",
+             test.max_steps, 0.5 * now.half_cycles, 0.5 * test.max_half_cycles);
     const double d_gamma = direction * test.strain_step;
     const auto normal = test.drained ? Prescribed::stress_value(vertical) : Prescribed{};
     const StrainIncrement<2> de = divided_step(
@@ -161,9 +165,11 @@ ShearTest run_simple_shear(PointUnderTest& point, const SimpleShear& test) {
     now.sigma_xx = point.stress[0];
     now.sigma_yy = point.stress[1];
     now.tau = point.stress[3];
-    if (!std::isfinite(now.tau + now.sigma_yy))
+    if (!std::isfinite(now.tau + now.sigma_yy + now.sigma_xx))
       throw NumericsError(
-          fmt::format("simple shear: the stress is not finite at step {}, gamma = {:.4g}",
+          fmt::format("simple shear: the stress is not finite at step {}, gamma = {:.4g} (the "
+                      "parameters or the stress at the start are far from those of soil) check "
+                      "their units",
                       r.records.size(), now.gamma));
     const bool stress_turns = test.reversal_stress && direction * now.tau >= *test.reversal_stress;
     const double forward = direction * now.gamma * (1.0 + kSumSlack);

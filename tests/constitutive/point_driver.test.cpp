@@ -73,6 +73,15 @@ TEST_CASE("The loop of an elastic-plastic point has the known damping", "[point]
   CHECK(loop.damping == Approx(1.5 / 3.14159265358979).epsilon(1e-3));
 }
 
+TEST_CASE("Simple shear that does not end is refused", "[point]") {
+  PointUnderTest p = point();
+  SimpleShear shear;
+  shear.reversal_stress = 1e3;
+  shear.max_half_cycles = 1000000;
+  shear.max_steps = 1000;
+  CHECK_THROWS_AS(run_simple_shear(p, shear), InputError);
+}
+
 TEST_CASE("Simple shear refuses a step that leads nowhere", "[point]") {
   PointUnderTest p = point();
   SimpleShear shear;
