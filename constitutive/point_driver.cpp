@@ -41,6 +41,19 @@ Eigen::MatrixXd secant_matrix(const PointUnderTest& point, const StrainIncrement
   return m;
 }
 
+/// Throws NumericsError for a prescribed stress that is missed by more than a tolerance [Pa].
+void check_reached(double error, double tolerance) {
+  if (!std::isfinite(error))
+    throw NumericsError(
+        "the prescribed stress leads to one that is not finite (the parameters or the stress are "
+        "far from those of soil) check their units");
+  if (!(error <= tolerance))
+    throw NumericsError(fmt::format(
+        "the prescribed stress is missed by {:.3g} Pa after {} iterations (the law cannot carry it "
+        "at this state) prescribe a strain, or a stress inside the strength",
+        error, kMaxIterations));
+}
+
 }  // namespace
 
 StrainIncrement<2> mixed_step(PointUnderTest& point, const std::array<Prescribed, 3>& step,
@@ -74,7 +87,8 @@ StrainIncrement<2> mixed_step(PointUnderTest& point, const std::array<Prescribed
       for (int j = 0; j < n; ++j) elastic(i, j) = full(row(free[i]), row(free[j]));
     Eigen::VectorXd r = residual(de);
     error = r.cwiseAbs().maxCoeff();
-    for (int k = 0; k < kMaxIterations && !(error <= tolerance); ++k) {
+    // No step leads back from a stress that is not finite.
+    for (int k = 0; k < kMaxIterations && error > tolerance && std::isfinite(error); ++k) {
       const Eigen::MatrixXd m = k < 2 ? elastic : secant_matrix(point, de, free);
       const Eigen::VectorXd full_step = m.fullPivLu().solve(r);
       // halve until the residual falls: the law is stiffer unloading than loading
@@ -92,11 +106,7 @@ StrainIncrement<2> mixed_step(PointUnderTest& point, const std::array<Prescribed
       }
     }
   }
-  if (!(error <= tolerance))
-    throw NumericsError(fmt::format(
-        "the prescribed stress is missed by {:.3g} Pa after {} iterations (the law cannot carry it "
-        "at this state) prescribe a strain, or a stress inside the strength",
-        error, kMaxIterations));
+  check_reached(error, tolerance);
   point.stress = point.advance(de);
   return de;
 }

@@ -46,10 +46,10 @@ void check_carried(const typename M::Constants& c, const typename M::State& stat
   if constexpr (AdmitsStress<M>) {
     constexpr double kSlack = 1e-3;  // of the strength
     const AdmissibleStress a = M::admissible(c, state, sigma, LiquefiedReturn::mean_stress);
-    validate(!(a.before > kSlack),
+    validate(a.before <= kSlack,
              "stress: {} cannot carry {} vertical, {} horizontal and {} shear (that is beyond its "
-             "strength, and the test would begin from another stress) bring k0 nearer to 1, or "
-             "lower the shear stress",
+             "strength, and the test would begin from another stress) bring k0 nearer to 1, "
+             "lower the shear stress, or check the parameters of the law",
              M::name, kpa(s.vertical), kpa(s.k0 * s.vertical), kpa(s.shear));
   }
 }

@@ -2,6 +2,8 @@
 
 #include "core/check.hpp"
 
+#include <cmath>
+
 #include <catch2/catch.hpp>
 
 using namespace flowslide;
@@ -45,6 +47,23 @@ TEST_CASE("A mixed step says that a stress is beyond the strength", "[point]") {
   CHECK_THROWS_AS(mixed_step(p, {Prescribed{}, Prescribed{}, Prescribed::stress_value(6e3)}, 1e-3),
                   NumericsError);
   CHECK(p.stress[3] == 0.0);
+}
+
+TEST_CASE("A mixed step ends where the law has no number to give", "[point]") {
+  int calls = 0;
+  PointUnderTest p = make_point(
+      Stress<2>{{-50e3, -100e3, -50e3, 0.0}}, Nothing{},
+      [&calls](const Stress<2>& s, const Nothing&, const StrainIncrement<2>& de) {
+        ++calls;
+        Stress<2> r = hooke<2>(kSoil, s, de);
+        if (r[3] > 5e3) r[3] = std::nan("");
+        return Answer{r, {}};
+      },
+      [](const Stress<2>&, const Nothing&) { return kSoil; });
+  CHECK_THROWS_WITH(
+      mixed_step(p, {Prescribed{}, Prescribed{}, Prescribed::stress_value(6e6)}, 1e-3),
+      Catch::Contains("not finite"));
+  CHECK(calls < 100);
 }
 
 TEST_CASE("Simple shear turns at the prescribed stress", "[point]") {
