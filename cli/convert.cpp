@@ -26,6 +26,7 @@ void add_convert(CLI::App& app, Command& action) {
   command->callback([options, &action] {
     action = [options] {
       check_unit(options->format.unit);
+      refuse_same_file(options->in, options->out);
       const Converted done = convert(*options);
       for (const std::string& note : done.notes) print_wrapped(stderr, "note: ", note);
       for (const std::string& warning : done.warnings) print_warning(warning);

@@ -22,6 +22,7 @@ struct PointOptions {
 };
 
 int drive_point(const PointOptions& options) {
+  refuse_same_file(options.file, options.csv);
   const YamlNode document = load_yaml(options.file, options.overrides);
   const auto config = read_settings<PointConfig>(document, "");
   const PointReport report = [&] {

@@ -5,7 +5,9 @@
 #include "core/units.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -105,6 +107,13 @@ void check_unit(const std::optional<std::string>& unit) {
   } catch (const InputError& e) {
     throw InputError(fmt::format("--unit: {}", e.what()));
   }
+}
+
+void refuse_same_file(const std::string& in, const std::string& out) {
+  std::error_code unknown;
+  if (std::filesystem::equivalent(in, out, unknown))
+    throw InputError(fmt::format(
+        "'{}' is the file that is read (its content would be lost) give another name", out));
 }
 
 CLI::Validator some_value() {

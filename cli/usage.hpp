@@ -25,6 +25,9 @@ CLI::Validator output_name();
 /// Throws InputError, naming --unit, for what is no unit of acceleration.
 void check_unit(const std::optional<std::string>& unit);
 
+/// Throws InputError if what is to be written is the file that is read.
+void refuse_same_file(const std::string& in, const std::string& out);
+
 /// Refuses a value of an option that is empty or blank.
 CLI::Validator some_value();
 

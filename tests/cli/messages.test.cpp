@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <sstream>
+#include <sys/stat.h>
 
 using namespace flowslide;
 using namespace flowslide::cli::test;
@@ -190,6 +191,26 @@ TEST_CASE("lines are whole in a file, and errors are wrapped on a terminal", "[c
   for (std::size_t at = 0; (at = shown.find("\n       ")) != std::string::npos;)
     shown.replace(at, 8, " ");
   CHECK(shown == error);
+}
+
+TEST_CASE("what is read is not written over, and no device is replaced", "[cli]") {
+  const Scratch scratch;
+  const std::string text = "0.00 0.1\n0.01 0.2\n0.02 -0.1\n";
+  scratch.write("a.csv", text);
+  scratch.write("p.yaml", "material: {}\n");
+  REQUIRE(::mkfifo((scratch / "pipe.csv").c_str(), 0600) == 0);
+  for (const char* same : {"convert a.csv a.csv --unit g", "convert a.csv ./a.csv --unit g",
+                           "point p.yaml --csv p.yaml"}) {
+    CAPTURE(same);
+    const Outcome o = call(scratch, same);
+    CHECK(o.code == 2);
+    CHECK_THAT(o.err, Contains("is the file that is read"));
+  }
+  CHECK(read_text_file(scratch / "a.csv") == text);
+  const Outcome pipe = call(scratch, "convert a.csv pipe.csv --unit g");
+  CHECK(pipe.code == 4);
+  CHECK_THAT(pipe.err, Contains("'pipe.csv' is a pipe or a device"));
+  CHECK(std::filesystem::is_fifo(scratch / "pipe.csv"));
 }
 
 TEST_CASE("what lists things fits a narrow terminal", "[cli]") {
