@@ -1,5 +1,6 @@
 #include "cli/case_list.hpp"
 #include "cli/command.hpp"
+#include "cli/terminal.hpp"
 #include "cli/usage.hpp"
 
 #include <cstdio>
@@ -20,7 +21,8 @@ int bench(const BenchOptions& options) {
   const auto cases = select(all_benchmarks(), options.names, options.large || options.list);
   if (options.list) {
     for (const BenchCase& c : cases)
-      fmt::print("{:<26} {}{}\n", c.name, c.doc, c.large ? " (large)" : "");
+      print_row(stdout, fmt::format("{:<26} ", c.name),
+                fmt::format("{}{}", c.doc, c.large ? " (large)" : ""));
     return 0;
   }
   if (!options.json) fmt::print("{}\n", measurement_heading());

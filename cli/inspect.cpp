@@ -68,11 +68,11 @@ void print(const Json& json, const std::string& indent) {
     } else if (value.is_array() && !value.empty() && value[0].is_string()) {
       fmt::print("{}{}\n", indent, key);
       for (const Json& line : value)
-        fmt::print("{}  {}\n", indent, printable(line.get<std::string>()));
+        print_wrapped(stdout, indent + "  ", printable(line.get<std::string>()));
     } else if (value.is_string()) {
-      fmt::print("{}{:<24} {}\n", indent, key, printable(value.get<std::string>()));
+      print_row(stdout, fmt::format("{}{:<24} ", indent, key), printable(value.get<std::string>()));
     } else if (!value.is_array() || !value.empty()) {
-      fmt::print("{}{:<24} {}\n", indent, key, shown(value));
+      print_row(stdout, fmt::format("{}{:<24} ", indent, key), shown(value));
     }
   }
 }
@@ -100,7 +100,8 @@ void add_inspect(CLI::App& app, Command& action) {
       // Problems of a run folder are files that are not what was written, those of a text are its
       // own; results only remember what was odd about where they come from.
       if (result["kind"] == "run") return 4;
-      return result["kind"] == "recorder" || result["kind"] == "workflow" ? 2 : 0;
+      const std::string kind = result["kind"];
+      return kind == "recorder" || kind == "workflow" || kind == "terrain" ? 2 : 0;
     };
   });
 }

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -34,6 +35,11 @@ void print_errors(std::string_view text) {
     if (end > 0) flowslide::cli::print_wrapped(stderr, "error: ", text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
   }
+}
+
+void print_rows(const std::string& text) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) flowslide::cli::print_row(stdout, line);
 }
 
 bool main_has_ended = false;
@@ -78,7 +84,9 @@ int run_command_line(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) {  // --help, --version
-      app.exit(e);
+      std::ostringstream text;
+      app.exit(e, text, text);
+      print_rows(text.str());
       flush_output();
       return 0;
     }

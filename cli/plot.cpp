@@ -48,7 +48,8 @@ void add_plot(CLI::App& app, Command& action) {
       ->check(input_name());
   command->add_option("--out", options->out, "this file: .png, .svg or .pdf [NAME-section.png]")
       ->check(output_name());
-  command->add_option("--python", options->python, "interpreter with Matplotlib [python3]");
+  command->add_option("--python", options->python, "interpreter with Matplotlib [python3]")
+      ->check(input_name());
   command->add_option("--set", options->overrides, "override a setting, PATH=VALUE")
       ->take_all()
       ->allow_extra_args(false);

@@ -1,8 +1,10 @@
 #include "cli/command.hpp"
+#include "cli/terminal.hpp"
 #include "cli/usage.hpp"
 #include "config/yaml.hpp"
 #include "constitutive/point_config.hpp"
 #include "core/files.hpp"
+#include "workflows/engine/stage.hpp"
 
 #include <memory>
 #include <string>
@@ -20,15 +22,21 @@ struct PointOptions {
 };
 
 int drive_point(const PointOptions& options) {
+  refuse_same_file(options.file, options.csv);
   const YamlNode document = load_yaml(options.file, options.overrides);
   const auto config = read_settings<PointConfig>(document, "");
-  try {
-    check(config);
-  } catch (const InputError& e) {
-    throw document.error(e.what());
-  }
-  const PointReport report = run_point(config);
-  for (const auto& [name, text] : report.facts) fmt::print("{:<32} {}\n", name, text);
+  const PointReport report = [&] {
+    try {
+      return run_point(config);
+    } catch (const InputError& e) {
+      throw detail::locate(document, e.what());
+    } catch (const NumericsError& e) {
+      throw NumericsError(fmt::format("{}: {}", options.file, e.what()));
+    }
+  }();
+  for (const std::string& warning : report.warnings) print_warning(warning);
+  for (const auto& [name, text] : report.facts)
+    print_row(stdout, fmt::format("{:<32} ", name), text);
   if (!options.csv.empty()) {
     write_file(options.csv, point_csv(report));
     fmt::print("{:<32} {}\n", "written", options.csv);

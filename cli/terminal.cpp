@@ -31,6 +31,54 @@ std::size_t width_of(std::string_view text) {
   return text.size() - static_cast<std::size_t>(std::count_if(text.begin(), text.end(), continues));
 }
 
+/// Columns in which lines are broken, 0 where they are not. One is kept free: some terminals wrap
+/// at the last one.
+std::size_t line_columns(std::FILE* file) {
+  const int descriptor = ::fileno(file);
+  return ::isatty(descriptor) == 1 ? terminal_columns(descriptor) - 1 : 0;
+}
+
+/// Text that a file brought must not steer the terminal.
+void print_word(std::FILE* file, std::string_view word) {
+  for (const char c : word)
+    std::fputc(std::iscntrl(static_cast<unsigned char>(c)) && c != '\t' ? '?' : c, file);
+}
+
+bool is_hash(std::string_view word) {
+  constexpr std::size_t kShortest = 32;
+  return word.size() >= kShortest && std::all_of(word.begin(), word.end(), [](char c) {
+           return std::isxdigit(static_cast<unsigned char>(c)) != 0;
+         });
+}
+
+/// A label and words in lines of so many columns; lines after the first begin at `hang`.
+void print_hanging(std::FILE* file, std::string_view label, std::size_t hang, std::string_view text,
+                   std::size_t columns) {
+  std::fwrite(label.data(), 1, label.size(), file);
+  const std::size_t start = width_of(label);
+  std::size_t column = start;
+  while (!text.empty()) {
+    const std::size_t blanks = std::min(text.find_first_not_of(' '), text.size());
+    const std::string_view word = text.substr(blanks, text.find(' ', blanks) - blanks);
+    const std::size_t width = width_of(word);
+    const bool breaks =
+        columns > 0 && column > std::max(start, hang) && column + blanks + width > columns;
+    if (breaks) std::fputc('\n', file);
+    const std::size_t gap = breaks ? hang : blanks;
+    for (std::size_t i = 0; i < gap; ++i) std::fputc(' ', file);
+    column = breaks ? gap : column + gap;
+    if (columns > column + 8 && column + width > columns && is_hash(word)) {
+      print_word(file, word.substr(0, columns - column - 3));
+      std::fputs("...", file);
+    } else {
+      print_word(file, word);
+    }
+    column += width;
+    text.remove_prefix(blanks + word.size());
+  }
+  std::fputc('\n', file);
+}
+
 }  // namespace
 
 std::string cut_to(std::string text, std::size_t columns) {
@@ -53,27 +101,31 @@ std::size_t terminal_columns(int file) {
 }
 
 void print_wrapped(std::FILE* file, std::string_view label, std::string_view text) {
-  const int descriptor = ::fileno(file);
-  const bool wrap = ::isatty(descriptor) == 1;
-  // One column is kept free: some terminals wrap at the last one.
-  const std::size_t columns = wrap ? terminal_columns(descriptor) - 1 : 0;
-  std::fwrite(label.data(), 1, label.size(), file);
-  std::size_t column = label.size();
-  while (!text.empty()) {
-    const std::size_t blanks = std::min(text.find_first_not_of(' '), text.size());
-    const std::string_view word = text.substr(blanks, text.find(' ', blanks) - blanks);
-    const std::size_t width = width_of(word);
-    const bool breaks = wrap && column > label.size() && column + blanks + width > columns;
-    if (breaks) std::fputc('\n', file);
-    const std::size_t gap = breaks ? label.size() : blanks;
-    for (std::size_t i = 0; i < gap; ++i) std::fputc(' ', file);
-    // Text that a file brought must not steer the terminal.
-    for (const char c : word)
-      std::fputc(std::iscntrl(static_cast<unsigned char>(c)) && c != '\t' ? '?' : c, file);
-    column = (breaks ? gap : column + gap) + width;
-    text.remove_prefix(blanks + word.size());
-  }
-  std::fputc('\n', file);
+  print_hanging(file, label, label.size(), text, line_columns(file));
+}
+
+void print_row(std::FILE* file, std::string_view label, std::string_view text) {
+  constexpr std::size_t kLeast = 25;  // columns for the text
+  const std::size_t columns = line_columns(file), hang = width_of(label);
+  if (columns == 0 || hang + kLeast <= columns || hang + width_of(text) <= columns)
+    return print_hanging(file, label, hang, text, columns);
+  // The name has a line of its own.
+  const std::size_t begin = std::min(label.find_first_not_of(' '), label.size());
+  const std::size_t end = label.find_last_not_of(' ') + 1;
+  if (begin < end) print_hanging(file, label.substr(0, end), 0, "", columns);
+  constexpr std::string_view kIndent = "            ";
+  const std::string_view indent =
+      kIndent.substr(0, std::min(begin < end ? begin + 4 : 4, kIndent.size()));
+  print_hanging(file, indent, indent.size(), text, columns);
+}
+
+void print_row(std::FILE* file, std::string_view line) {
+  const std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
+  const std::size_t gap = line.find("  ", begin);
+  const std::size_t second = gap == std::string_view::npos
+                                 ? begin
+                                 : std::min(line.find_first_not_of(' ', gap), line.size());
+  print_row(file, line.substr(0, second), line.substr(second));
 }
 
 void print_warning(std::string_view text) {

@@ -34,6 +34,12 @@ std::size_t terminal_columns(int file);
 /// is longer than a line stays whole. Allocates nothing.
 void print_wrapped(std::FILE* file, std::string_view label, std::string_view text);
 
+/// As print_wrapped for a line of two columns, a name and what is said of it, with blanks before
+/// each: the lines after the first begin where the second column does, or further left on a
+/// narrow terminal. A hash that is longer than a line is cut.
+void print_row(std::FILE* file, std::string_view line);
+void print_row(std::FILE* file, std::string_view label, std::string_view text);
+
 /// Cuts at a column, never inside a UTF-8 character.
 std::string cut_to(std::string text, std::size_t columns);
 

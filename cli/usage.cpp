@@ -2,9 +2,12 @@
 
 #include "config/yaml.hpp"
 #include "core/check.hpp"
+#include "core/units.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -40,10 +43,10 @@ bool parted(const std::vector<std::string>& words, const std::string& left_over)
   return at - words.begin() >= 2 && *(at - 2) == "--set";
 }
 
-std::string why_blank(const std::string& name) {
-  if (name.find_first_not_of(" \t\r\n") != std::string::npos) return {};
-  return fmt::format("is {} (a name is expected; an unset variable of the shell?)",
-                     name.empty() ? "empty" : "blank");
+std::string why_blank(const std::string& text, const char* expected) {
+  if (text.find_first_not_of(" \t\r\n") != std::string::npos) return {};
+  return fmt::format("is {} ({} is expected; an unset variable of the shell?)",
+                     text.empty() ? "empty" : "blank", expected);
 }
 
 }  // namespace
@@ -93,12 +96,34 @@ std::string usage_problem(const CLI::App& app, int argc, char** argv,
                      fmt::join(in_order, " "), why);
 }
 
-CLI::Validator input_name() { return CLI::Validator(why_blank, ""); }
+CLI::Validator input_name() {
+  return CLI::Validator([](const std::string& name) { return why_blank(name, "a name"); }, "");
+}
+
+void check_unit(const std::optional<std::string>& unit) {
+  if (!unit) return;
+  try {
+    (void)unit_factor(*unit, Dim::acceleration);
+  } catch (const InputError& e) {
+    throw InputError(fmt::format("--unit: {}", e.what()));
+  }
+}
+
+void refuse_same_file(const std::string& in, const std::string& out) {
+  std::error_code unknown;
+  if (std::filesystem::equivalent(in, out, unknown))
+    throw InputError(fmt::format(
+        "'{}' is the file that is read (its content would be lost) give another name", out));
+}
+
+CLI::Validator some_value() {
+  return CLI::Validator([](const std::string& text) { return why_blank(text, "a value"); }, "");
+}
 
 CLI::Validator output_name() {
   return CLI::Validator(
       [](const std::string& name) -> std::string {
-        if (const std::string why = why_blank(name); !why.empty()) return why;
+        if (const std::string why = why_blank(name, "a name"); !why.empty()) return why;
         if (name[0] == '~')
           return fmt::format("'{}': '~' is not expanded; write the folder in full", name);
         return {};

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 
 namespace CLI {
@@ -20,6 +21,15 @@ std::string usage_problem(const CLI::App& app, int argc, char** argv, const CLI:
 /// Refuses names under which nothing should be written: none at all, and '~', which the shell
 /// leaves alone in quotes and after '='.
 CLI::Validator output_name();
+
+/// Throws InputError, naming --unit, for what is no unit of acceleration.
+void check_unit(const std::optional<std::string>& unit);
+
+/// Throws InputError if what is to be written is the file that is read.
+void refuse_same_file(const std::string& in, const std::string& out);
+
+/// Refuses a value of an option that is empty or blank.
+CLI::Validator some_value();
 
 /// Refuses names of what should be read that are empty or blank.
 CLI::Validator input_name();

@@ -1,5 +1,6 @@
 #include "cli/case_list.hpp"
 #include "cli/command.hpp"
+#include "cli/terminal.hpp"
 #include "cli/usage.hpp"
 
 #include <algorithm>
@@ -21,7 +22,8 @@ constexpr int kNumericsFailed = 3;
 
 void print_list(const std::vector<VerificationCase>& cases) {
   for (const VerificationCase& c : cases)
-    fmt::print("{:<26} {}{}\n", c.name, c.doc, c.quick ? " (quick)" : "");
+    print_row(stdout, fmt::format("{:<26} ", c.name),
+              fmt::format("{}{}", c.doc, c.quick ? " (quick)" : ""));
 }
 
 int verify(const VerifyOptions& options) {

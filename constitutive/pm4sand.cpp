@@ -138,10 +138,10 @@ Elasticity PM4Sand::elasticity(const Constants& c, const State& s,
 void Schema<PM4Sand::Params>::describe(FieldVisitor& v, PM4Sand::Params& p) {
   const Range positive{.above = 0.0};
   v.quantity("Dr", p.Dr, Dim::none, {.max = 1.0, .above = 0.0}, "relative density, 0..1");
-  v.quantity("G0", p.G0, Dim::none, positive, "shear modulus coefficient");
+  v.quantity("G0", p.G0, Dim::none, {.max = 1e5, .above = 0.0}, "shear modulus coefficient");
   v.quantity("hpo", p.hpo, Dim::none, positive,
              "contraction rate parameter; calibrate it to the cyclic strength");
-  v.quantity("P_atm", p.P_atm, Dim::stress, positive, "atmospheric pressure");
+  v.quantity("P_atm", p.P_atm, Dim::stress, {.min = 50e3, .max = 200e3}, "atmospheric pressure");
   v.quantity("h0", p.h0, Dim::none, positive,
              "plastic modulus factor; left out: max(0.3, (0.25 + Dr)/2)");
   v.quantity("emax", p.emax, Dim::none, positive, "largest void ratio");
@@ -179,7 +179,7 @@ void Schema<PM4Sand::Params>::describe(FieldVisitor& v, PM4Sand::Params& p) {
   v.choice("reversals", p.reversals, PM4Sand::reversals_names,
            "what small cycles about a shear stress remember: the distance from the last reversal "
            "until the one before is passed, or the rule as OpenSees has it");
-  v.quantity("tolerance", p.tolerance, Dim::none, {.max = 1.0, .above = 0.0},
+  v.quantity("tolerance", p.tolerance, Dim::none, {.min = 1e-8, .max = 1.0},
              "stress error of a sub-step relative to the stress, which larger errors divide; left "
              "out: as max_strain_increment");
 }

@@ -75,7 +75,16 @@ void Schema<PointConfig>::describe(FieldVisitor& v, PointConfig& c) {
 
 namespace {
 
-constexpr double kMostSteps = 2e7;
+/// What is wrong with a law, under the path at which it is written.
+void check_material(const PointMaterial& material) {
+  try {
+    (void)make_material(material.laws, "material");
+  } catch (const InputError& e) {
+    const std::string text = e.what();
+    const bool of_law = text.find(": ") < text.find(' ');
+    throw InputError(fmt::format("material{}{}", of_law ? "." : ": ", text));
+  }
+}
 
 void check_shear(const PointShear& s) {
   const int reversals = int{s.csr.has_value()} + int{s.reversal_stress.has_value()} +
@@ -85,31 +94,53 @@ void check_shear(const PointShear& s) {
            "turn at one only). Keep one, or none for monotonic shear",
            reversals);
   const double largest = s.reversal_strain ? *s.reversal_strain : s.stop_strain;
-  const double steps = largest / s.strain_step * (reversals > 0 ? 4.0 * s.max_cycles : 1.0);
+  validate(s.strain_step <= largest,
+           "simple_shear.strain_step: {:g} is more than {} of {:g} (the first step would go beyond "
+           "it) take a hundredth of it",
+           s.strain_step, s.reversal_strain ? "the reversal_strain" : "the stop_strain", largest);
   // Stress-controlled tests leave small strains only when they are about to end.
-  const bool bounded = s.reversal_strain.has_value() || reversals == 0;
-  validate(!bounded || steps <= kMostSteps,
+  const double steps =
+      largest / s.strain_step * (s.reversal_strain.has_value() ? 4.0 * s.max_cycles : 1.0);
+  validate(steps <= kMostPointSteps,
            "simple_shear: about {:.2g} steps (the limit is {:.0g}). Raise strain_step or lower "
            "max_cycles",
-           steps, kMostSteps);
+           steps, kMostPointSteps);
 }
 
 void check_leg(const PointLeg& leg, std::size_t index) {
-  const auto one = [index](const auto& strain, const auto& stress, const char* what) {
-    validate(!(strain && stress),
-             "path: leg {} gives a strain and a stress for {} (only one can be prescribed). Leave "
-             "one out",
-             index + 1, what);
+  bool moves = false;
+  const auto one = [&](const auto& strain, const auto& stress, const char* what) {
+    moves = moves || strain || stress;
+    validate(
+        !(strain && stress),
+        "path.{}: leg {} gives a strain and a stress for {} (only one can be prescribed). Leave "
+        "one out",
+        index, index + 1, what);
   };
   one(leg.strain_xx, leg.stress_xx, "xx");
   one(leg.strain_yy, leg.stress_yy, "yy");
   one(leg.gamma_xy, leg.tau_xy, "xy");
+  validate(moves,
+           "path.{}: leg {} gives no strain and no stress (nothing would happen in its {} steps). "
+           "Say what it does, or leave it out",
+           index, index + 1, leg.steps);
+}
+
+void check_path(const std::vector<PointLeg>& path) {
+  double steps = 0.0;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    check_leg(path[i], i);
+    steps += path[i].steps;
+  }
+  validate(steps <= kMostPointSteps,
+           "path: {:.2g} steps in all legs (the limit is {:.0g}). Take fewer", steps,
+           kMostPointSteps);
 }
 
 }  // namespace
 
 void check(const PointConfig& config) {
-  (void)make_material(config.material.laws, "material");
+  check_material(config.material);
   validate(
       !config.stress.compacts || config.material.laws.of<PM4Sand>(),
       "stress.compacts with a law other than pm4sand (it has no void ratio to lower). Leave it "
@@ -125,7 +156,7 @@ void check(const PointConfig& config) {
                                : "neither simple_shear nor path is given. Add one, such as "
                                  "simple_shear: {csr: 0.1}");
   if (config.simple_shear) check_shear(*config.simple_shear);
-  for (std::size_t i = 0; i < config.path.size(); ++i) check_leg(config.path[i], i);
+  check_path(config.path);
 }
 
 }  // namespace flowslide

@@ -40,6 +40,9 @@ struct PointLeg {
   int steps = 100;
 };
 
+/// Every step of a test is kept.
+inline constexpr double kMostPointSteps = 2e7;
+
 struct PointConfig {
   PointMaterial material;
   PointStress stress;
@@ -60,9 +63,11 @@ struct PointReport {
   std::string law;
   std::vector<PointRow> rows;                              ///< the first is the start
   std::vector<std::pair<std::string, std::string>> facts;  ///< what happened, for people
+  std::vector<std::string> warnings = {};                  ///< where it is not what was asked for
 };
 
-/// Throws NumericsError where a prescribed stress cannot be reached, with the leg and step.
+/// Throws InputError for a consolidated stress that the law cannot carry or a test without end,
+/// NumericsError where a prescribed stress cannot be reached, with the leg and step.
 PointReport run_point(const PointConfig& config);
 
 /// Heading and rows: gamma, eps_xx, eps_yy, sigma_xx_pa, sigma_yy_pa, tau_pa, r_u, half_cycles.

@@ -41,6 +41,19 @@ Eigen::MatrixXd secant_matrix(const PointUnderTest& point, const StrainIncrement
   return m;
 }
 
+/// Throws NumericsError for a prescribed stress that is missed by more than a tolerance [Pa].
+void check_reached(double error, double tolerance) {
+  if (!std::isfinite(error))
+    throw NumericsError(
+        "the prescribed stress leads to one that is not finite (the parameters or the stress are "
+        "far from those of soil) check their units");
+  if (!(error <= tolerance))
+    throw NumericsError(fmt::format(
+        "the prescribed stress is missed by {:.3g} Pa after {} iterations (the law cannot carry it "
+        "at this state) prescribe a strain, or a stress inside the strength",
+        error, kMaxIterations));
+}
+
 }  // namespace
 
 StrainIncrement<2> mixed_step(PointUnderTest& point, const std::array<Prescribed, 3>& step,
@@ -74,7 +87,8 @@ StrainIncrement<2> mixed_step(PointUnderTest& point, const std::array<Prescribed
       for (int j = 0; j < n; ++j) elastic(i, j) = full(row(free[i]), row(free[j]));
     Eigen::VectorXd r = residual(de);
     error = r.cwiseAbs().maxCoeff();
-    for (int k = 0; k < kMaxIterations && !(error <= tolerance); ++k) {
+    // No step leads back from a stress that is not finite.
+    for (int k = 0; k < kMaxIterations && error > tolerance && std::isfinite(error); ++k) {
       const Eigen::MatrixXd m = k < 2 ? elastic : secant_matrix(point, de, free);
       const Eigen::VectorXd full_step = m.fullPivLu().solve(r);
       // halve until the residual falls: the law is stiffer unloading than loading
@@ -92,11 +106,7 @@ StrainIncrement<2> mixed_step(PointUnderTest& point, const std::array<Prescribed
       }
     }
   }
-  if (!(error <= tolerance))
-    throw NumericsError(fmt::format(
-        "the prescribed stress is missed by {:.3g} Pa after {} iterations (the law cannot carry it "
-        "at this state) prescribe a strain, or a stress inside the strength",
-        error, kMaxIterations));
+  check_reached(error, tolerance);
   point.stress = point.advance(de);
   return de;
 }
@@ -152,6 +162,10 @@ ShearTest run_simple_shear(PointUnderTest& point, const SimpleShear& test) {
   ShearRecord now = r.records.front();
   double direction = 1.0;
   while (now.half_cycles < test.max_half_cycles) {
+    validate(r.records.size() <= test.max_steps,
+             "simple_shear: {} steps, and the test is at cycle {} of {} (each step is kept) raise "
+             "strain_step, or lower max_cycles",
+             test.max_steps, 0.5 * now.half_cycles, 0.5 * test.max_half_cycles);
     const double d_gamma = direction * test.strain_step;
     const auto normal = test.drained ? Prescribed::stress_value(vertical) : Prescribed{};
     const StrainIncrement<2> de = divided_step(
@@ -161,9 +175,11 @@ ShearTest run_simple_shear(PointUnderTest& point, const SimpleShear& test) {
     now.sigma_xx = point.stress[0];
     now.sigma_yy = point.stress[1];
     now.tau = point.stress[3];
-    if (!std::isfinite(now.tau + now.sigma_yy))
+    if (!std::isfinite(now.tau + now.sigma_yy + now.sigma_xx))
       throw NumericsError(
-          fmt::format("simple shear: the stress is not finite at step {}, gamma = {:.4g}",
+          fmt::format("simple shear: the stress is not finite at step {}, gamma = {:.4g} (the "
+                      "parameters or the stress at the start are far from those of soil) check "
+                      "their units",
                       r.records.size(), now.gamma));
     const bool stress_turns = test.reversal_stress && direction * now.tau >= *test.reversal_stress;
     const double forward = direction * now.gamma * (1.0 + kSumSlack);

@@ -73,6 +73,7 @@ struct SimpleShear {
   std::optional<double> reversal_strain;  ///< |gamma| at which it turns
   double stop_strain = 0.03;              ///< ends when |gamma| reaches it
   int max_half_cycles = 1000;             ///< ends after as many reversals
+  std::size_t max_steps = 20'000'000;     ///< a test that needs more is refused
 };
 
 struct ShearRecord {
@@ -90,7 +91,8 @@ struct ShearTest {
 };
 
 /// Runs the test; with neither reversal it is monotonic.
-/// Throws InputError for a step, stop or reversal that is not positive; NumericsError as mixed_step
+/// Throws InputError for a step, stop or reversal that is not positive and for too many steps;
+/// NumericsError as mixed_step
 /// or when the stress is no longer finite, with the step and the strain.
 ShearTest run_simple_shear(PointUnderTest& point, const SimpleShear& test);
 

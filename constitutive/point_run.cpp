@@ -1,5 +1,7 @@
+#include "constitutive/left_to_points.hpp"
 #include "constitutive/point_config.hpp"
 #include "core/check.hpp"
+#include "core/elementary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,20 +38,66 @@ Elasticity present_elasticity(const typename M::Params& p, const typename M::Con
     return M::elasticity(p);
 }
 
+std::string kpa(double stress) { return fmt::format("{:.4g} kPa", 1e-3 * stress); }
+
+/// The test would begin from another stress than that which is told.
 template <class M>
-PointUnderTest point_with(const typename M::Params& p, const PointStress& s) {
+void check_carried(const typename M::Constants& c, const typename M::State& state,
+                   const Stress<2>& sigma, const PointStress& s) {
+  if constexpr (AdmitsStress<M>) {
+    constexpr double kSlack = 1e-3;  // of the strength
+    const AdmissibleStress a = M::admissible(c, state, sigma, LiquefiedReturn::mean_stress);
+    validate(a.before <= kSlack,
+             "stress: {} cannot carry {} vertical, {} horizontal and {} shear (that is beyond its "
+             "strength, and the test would begin from another stress) bring k0 nearer to 1, "
+             "lower the shear stress, or check the parameters of the law",
+             M::name, kpa(s.vertical), kpa(s.k0 * s.vertical), kpa(s.shear));
+  }
+}
+
+/// PM4Sand holds what it cannot carry at the start outside of the law.
+template <class M>
+void warn_of_held(const typename M::State& state, std::vector<std::string>& warnings) {
+  if constexpr (requires { state.held_p; }) {
+    const double shear = hypot(state.held.d, state.held.t);
+    if (shear > 0.0 || state.held_p != 0.0)
+      warnings.push_back(fmt::format(
+          "stress: {} cannot carry all of the stress at the start: {} of shear and {} of mean "
+          "stress stay outside of the law. Strengths and cycles are not those of this soil; is "
+          "the stress right?",
+          M::name, kpa(shear), kpa(std::abs(state.held_p))));
+  }
+}
+
+template <class M>
+PointUnderTest point_with(const typename M::Params& p, const PointStress& s,
+                          std::vector<std::string>& warnings) {
   // A point follows strains and stresses, not time.
   if constexpr (requires { M::rate_dependent; })
     throw InputError(fmt::format(
-        "material: the stress of {} depends on the rate of strain (a point is driven without "
-        "time). Use a law that does not, such as {}",
+        "material.{0}: the stress of {0} depends on the rate of strain (a point is driven without "
+        "time). Use a law that does not, such as {1}",
         M::name, MohrCoulomb::name));
   const double lateral = -s.k0 * s.vertical;
   const Stress<2> sigma{{lateral, -s.vertical, lateral, s.shear}};
   using State = typename M::State;
   const auto c = shaking_constants<M>(p);
+  const State start = consolidated<M>(p, c, sigma, s);
+  const std::string_view missing = left_to_points<M>(start);
+  if constexpr (ShakingModel<M>)
+    validate(missing.empty(),
+             "material.{}: the state at the start has no '{}' (some parameter is far from those of "
+             "soil) check them",
+             M::name, missing);
+  else
+    validate(missing.empty(),
+             "material.{}: '{}' is missing (in a run every point brings its own; here there is one "
+             "point) give it",
+             M::name, missing);
+  check_carried<M>(c, start, sigma, s);
+  warn_of_held<M>(start, warnings);
   return make_point(
-      sigma, consolidated<M>(p, c, sigma, s),
+      sigma, start,
       [c](const Stress<2>& stress, const State& state, const StrainIncrement<2>& de) {
         if constexpr (ShakingModel<M>)
           return M::update(c, state, stress, de);
@@ -61,16 +109,14 @@ PointUnderTest point_with(const typename M::Params& p, const PointStress& s) {
       });
 }
 
-PointUnderTest point_of(const PointConfig& config, std::string& law) {
+PointUnderTest point_of(const PointConfig& config, PointReport& report) {
   return std::visit(
       [&]<class M>(const Material<M>& material) {
-        law = M::name;
-        return point_with<M>(material.params, config.stress);
+        report.law = M::name;
+        return point_with<M>(material.params, config.stress, report.warnings);
       },
       make_material(config.material.laws, "material"));
 }
-
-std::string kpa(double stress) { return fmt::format("{:.4g} kPa", 1e-3 * stress); }
 
 void add_shear_facts(const ShearTest& test, const PointShear& shear, bool cyclic,
                      PointReport& report) {
@@ -119,6 +165,28 @@ void add_shear_facts(const ShearTest& test, const PointShear& shear, bool cyclic
   }
 }
 
+/// Steps that are long beside a cycle carry the test beyond where it should have turned.
+void warn_of_overshoot(const ShearTest& test, const SimpleShear& asked, PointReport& report) {
+  constexpr double kMost = 0.02;
+  double stress = 0.0, strain = 0.0;
+  for (std::size_t i = 1; i < test.records.size(); ++i) {
+    const ShearRecord& r = test.records[i - 1];
+    if (test.records[i].half_cycles == r.half_cycles) continue;
+    stress = std::max(stress, std::abs(r.tau));
+    strain = std::max(strain, std::abs(r.gamma));
+  }
+  const auto tell = [&](double reached, double wanted, const std::string& what) {
+    if (reached > (1.0 + kMost) * wanted)
+      report.warnings.push_back(fmt::format(
+          "simple_shear: shearing turned at up to {}, {:.2g} times what was asked for: a step of "
+          "{:g} is too long for so small a cycle. Lower strain_step.",
+          what, reached / wanted, asked.strain_step));
+  };
+  if (asked.reversal_stress) tell(stress, *asked.reversal_stress, kpa(stress));
+  if (asked.reversal_strain)
+    tell(strain, *asked.reversal_strain, fmt::format("a shear strain of {:.3g}", strain));
+}
+
 void run_shear(PointUnderTest& point, const PointConfig& config, PointReport& report) {
   const PointShear& shear = *config.simple_shear;
   SimpleShear test{.drained = shear.drained,
@@ -134,6 +202,7 @@ void run_shear(PointUnderTest& point, const PointConfig& config, PointReport& re
   const ShearTest result = run_simple_shear(point, test);
   for (const ShearRecord& r : result.records)
     report.rows.push_back({r.gamma, 0.0, r.eps_yy, r.sigma_xx, r.sigma_yy, r.tau, r.half_cycles});
+  warn_of_overshoot(result, test, report);
   add_shear_facts(result, shear, cyclic, report);
 }
 
@@ -173,7 +242,7 @@ void run_path(PointUnderTest& point, const PointConfig& config, PointReport& rep
       if (!std::isfinite(row.sigma_xx + row.sigma_yy + row.tau))
         throw NumericsError(
             fmt::format("leg {} of the path, step {}: the stress is not finite. "
-                        "Take smaller steps",
+                        "Take smaller steps, and check the units of the parameters",
                         l + 1, step + 1));
       report.rows.push_back(row);
     }
@@ -190,7 +259,7 @@ void run_path(PointUnderTest& point, const PointConfig& config, PointReport& rep
 PointReport run_point(const PointConfig& config) {
   check(config);
   PointReport report;
-  PointUnderTest point = point_of(config, report.law);
+  PointUnderTest point = point_of(config, report);
   report.facts.emplace_back("law", report.law);
   report.facts.emplace_back(
       "consolidated to",

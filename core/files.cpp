@@ -102,6 +102,14 @@ fs::path temporary_name(const fs::path& path) {
     throw FileError(
         fmt::format("'{}' names no file (it is empty or ends with a slash) give the name of a file",
                     path.string()));
+  // A file that is renamed takes the place of a device, for all programs of the machine.
+  std::error_code unknown;
+  const fs::file_type type = fs::status(path, unknown).type();
+  if (type == fs::file_type::character || type == fs::file_type::block ||
+      type == fs::file_type::fifo || type == fs::file_type::socket)
+    throw FileError(fmt::format(
+        "'{}' is a pipe or a device (a file would take its place) give the name of a file",
+        path.string()));
   // Where the folder cannot be listed it may still be written.
   remove_leftovers(folder_of(path), path.filename().string());
   std::uint64_t number = 0;

@@ -13,7 +13,7 @@
 namespace flowslide {
 
 /// A name beside `path` that nothing has: ".NAME.<random>.partial". What killed writers of the same
-/// file left under such names goes.
+/// file left under such names goes. FileError for what is a pipe or a device.
 std::filesystem::path temporary_name(const std::filesystem::path& path);
 
 /// Bytes that appear under `path` when all of them are on the disk. The destructor only cleans up:

@@ -13,11 +13,11 @@
 #include "model/zone.hpp"
 #include "motion/measures.hpp"
 #include "mpm/walls/height_field.hpp"
+#include "mpm/walls/is_height_field.hpp"
 #include "workflows/engine/graph.hpp"
 #include "workflows/stages/stage_list.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -175,11 +175,10 @@ Json inspect_recorder(const fs::path& path, const std::function<void(double)>& t
 
 bool is_terrain(const fs::path& path) {
   std::ifstream in(path);
-  std::string word(8, '\0');
-  in.read(word.data(), std::ssize(word));
-  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  const std::string_view start = word;
-  return start.substr(start.starts_with("\xEF\xBB\xBF") ? 3 : 0).starts_with("ncols");
+  std::string head(256, '\0');
+  in.read(head.data(), std::ssize(head));
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  return mpm::is_height_field(head);
 }
 
 Json inspect_terrain(const fs::path& path) {

@@ -3,7 +3,9 @@
 #include "core/check.hpp"
 #include "core/units.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace flowslide {
 namespace {
@@ -50,6 +52,34 @@ std::string unit_of(const RecordText& text, const At2Header& header, const Recor
   return *header.unit;
 }
 
+/// Whether the last word of a line has no exponent.
+bool ends_bare(std::string_view line) {
+  line = trimmed(line);
+  const std::size_t blank = line.find_last_of(" \t,;");
+  return line.substr(blank == std::string_view::npos ? 0 : blank + 1).find_first_of("eEdD") ==
+         std::string_view::npos;
+}
+
+/// All values but the last have an exponent: the file ends within the last, which would be a
+/// thousand times too large without it.
+void check_last(const RecordText& text, std::size_t first_line, std::size_t last_line) {
+  const auto exponents = [](std::string_view s) {
+    return std::count_if(s.begin(), s.end(),
+                         [](char c) { return std::strchr("eEdD", c) != nullptr; });
+  };
+  std::vector<double> values;
+  std::ptrdiff_t found = 0;
+  for (std::size_t i = first_line; i < last_line; ++i) {
+    found += exponents(text.lines[i]);
+    (void)take_row(text.lines[i], values);
+  }
+  validate(
+      std::ssize(values) != found + 1 || found < 2 || !ends_bare(text.lines[last_line - 1]),
+      "{}:{}: the last value has no exponent, and all others have (the file was cut within it) "
+      "get it again",
+      text.name, last_line);
+}
+
 }  // namespace
 
 Record parse_at2(const RecordText& text, const RecordFormat& format) {
@@ -69,6 +99,7 @@ Record parse_at2(const RecordText& text, const RecordFormat& format) {
     last_line = i + 1;
     if (before < header.npts && values.size() >= header.npts) filled_line = i + 1;
   }
+  if (last_line > 0) check_last(text, header.data_line, last_line);
   check_count(text, header, values.size(), filled_line == last_line ? filled_line : 0, format,
               record.notes);
   if (!format.accept_count && values.size() > header.npts) values.resize(header.npts);

@@ -22,11 +22,16 @@ std::size_t find_word(std::string_view text, std::string_view word) {
   return std::string_view::npos;
 }
 
-std::optional<double> number_after(std::string_view text, std::string_view word) {
+std::optional<double> number_after(const std::string& place, std::string_view text,
+                                   std::string_view word) {
   text.remove_prefix(find_word(text, word) + word.size());
   text.remove_prefix(std::min(text.find_first_not_of(" \t=:"), text.size()));
   double value = 0.0;
+  const std::string_view number = text;
   if (!take_number(text, value)) return std::nullopt;
+  const bool goes_on = text.size() > 1 && (text[0] == '.' || text[0] == ',') && is_digit(text[1]);
+  validate(!goes_on, "{}: '{}' after {} is no number (one decimal point is expected)", place,
+           number.substr(0, number.find_first_of(" \t")), word);
   return value;
 }
 
@@ -118,8 +123,9 @@ At2Header parse_at2_header(const RecordText& text) {
 
   const auto [first, last] = std::minmax(n_line, dt_line);
   const std::string counts = first == last ? upper[first] : upper[first] + " " + upper[last];
-  std::optional<double> npts = number_after(counts, "NPTS");
-  std::optional<double> dt = number_after(counts, "DT");
+  const std::string place = fmt::format("{}:{}", text.name, first + 1);
+  std::optional<double> npts = number_after(place, counts, "NPTS");
+  std::optional<double> dt = number_after(place, counts, "DT");
   if (!npts || !dt) {
     const std::vector<double> numbers = free_numbers(counts);
     validate(numbers.size() >= 2, "{}:{}: '{}' does not give both NPTS and DT", text.name,

@@ -8,11 +8,18 @@
 
 namespace flowslide {
 
+namespace {
+
+/// Far beyond any earthquake on both sides: what is outside is a wrong unit [m/s2].
+constexpr Range kPeaks{.min = 1e-6, .max = 1e3};
+
+}  // namespace
+
 template <>
 struct Schema<SyntheticConfig> {
   static constexpr std::string_view doc = "A synthetic motion with given measures.";
   static void describe(FieldVisitor& v, SyntheticConfig& c) {
-    v.quantity("pga", c.pga, Dim::acceleration, {.above = 0.0}, "peak acceleration, exact");
+    v.quantity("pga", c.pga, Dim::acceleration, kPeaks, "peak acceleration, exact");
     v.quantity("tm", c.tm, Dim::time, {.min = 0.1, .max = 2.0}, "mean period, within 0.2 %");
     v.quantity("d5_95", c.d5_95, Dim::time, {.min = 1.0, .max = 200.0},
                "significant duration, within 0.2 %");
@@ -85,7 +92,7 @@ void Schema<MotionConfig>::describe(FieldVisitor& v, MotionConfig& c) {
   v.group("baseline", c.baseline, "baseline correction");
   v.group("filter", c.filter, "band-pass, high-pass or low-pass");
   v.group("resample", c.resample, "another time step");
-  v.quantity("pga", c.pga, Dim::acceleration, {.above = 0.0},
+  v.quantity("pga", c.pga, Dim::acceleration, kPeaks,
              "peak acceleration to which the result is scaled");
 }
 
@@ -117,11 +124,11 @@ void check(const MotionConfig& config) {
   validate(sources == 1, "{} of record, preset and synthetic are given (exactly one is needed)",
            sources);
   validate(!config.preset || config.pga,
-           "preset '{}' without pga (a preset has a shape, no size) add e.g. 'pga: 0.3 g'",
+           "preset: '{}' without pga (a preset has a shape, no size) add e.g. 'pga: 0.3 g'",
            config.preset.value_or(""));
   if (config.preset) preset_config(*config.preset, *config.pga);
   validate(!config.filter || config.filter->high_pass || config.filter->low_pass,
-           "filter without high_pass or low_pass (nothing would be filtered)");
+           "filter: has no high_pass and no low_pass (nothing would be filtered)");
   if (config.filter) check_corners(config);
 }
 

@@ -1,7 +1,14 @@
+#include "core/nearest.hpp"
 #include "motion/synthetic.hpp"
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace flowslide {
 namespace {
@@ -103,10 +110,14 @@ SyntheticConfig preset_config(std::string_view name, double pga) {
   const auto preset = std::find_if(kPresets.begin(), kPresets.end(),
                                    [&](const MotionPreset& p) { return p.name == name; });
   if (preset == kPresets.end()) {
-    std::string known;
-    for (const MotionPreset& p : kPresets)
-      known += (known.empty() ? "" : ", ") + std::string(p.name);
-    throw InputError(fmt::format("unknown motion preset '{}' use one of: {}", name, known));
+    std::vector<std::string> known;
+    for (const MotionPreset& p : kPresets) known.emplace_back(p.name);
+    std::optional<std::string> near = nearest(name, known);
+    for (const std::string& whole : known)  // names begin with that of the earthquake
+      if (!near && !name.empty() && whole.starts_with(name)) near = whole;
+    throw InputError(fmt::format("preset: there is no motion '{}' {}use one of: {}", name,
+                                 near ? fmt::format("did you mean '{}'? ", *near) : "",
+                                 fmt::join(known, ", ")));
   }
   SyntheticConfig config;
   config.pga = pga;

@@ -4,6 +4,8 @@
 #include "motion/foreign.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include <nlohmann/json.hpp>
 
@@ -31,23 +33,71 @@ MotionRow measure_record(const std::filesystem::path& path, std::optional<double
   return row;
 }
 
+namespace {
+
+/// Digits after the point where they fit, else three in all.
+std::string number(double value, int digits) {
+  constexpr double kLong = 1e7;
+  return std::abs(value) < kLong ? fmt::format("{:.{}f}", value, digits)
+                                 : fmt::format("{:.3g}", value);
+}
+
+struct Column {
+  const char *name, *unit;
+  int width;
+};
+constexpr std::array<Column, 8> kMeasured{{{"npts", "", 7},
+                                           {"dt", "s", 7},
+                                           {"PGA", "g", 8},
+                                           {"Arias", "m/s", 10},
+                                           {"D5-95", "s", 8},
+                                           {"Tm", "s", 7},
+                                           {"PGV", "cm/s", 9},
+                                           {"MASI", "m/s", 9}}};
+
+/// In the order of the columns.
+std::array<std::string, kMeasured.size()> cells(const MotionRow& row) {
+  const MotionMeasures& m = row.measures;
+  return {fmt::format("{}", row.npts), fmt::format("{:.5g}", row.dt),
+          number(m.pga / kGravity, 4), fmt::format("{:.4g}", m.arias),
+          number(m.d5_95, 2),          number(m.tm, 3),
+          number(100.0 * m.pgv, 2),    number(m.masi, 3)};
+}
+
+std::string scaling(std::optional<double> scale_to) {
+  return scale_to ? fmt::format("PGV and MASI after scaling to {:.4g} g\n", *scale_to / kGravity)
+                  : "";
+}
+
+}  // namespace
+
 std::string motion_table(std::span<const MotionRow> rows, std::optional<double> scale_to) {
   std::size_t width = 4;
   for (const MotionRow& row : rows) width = std::max(width, row.file.size());
-  std::string text =
-      fmt::format("{:<{}} {:>7} {:>7} {:>8} {:>10} {:>8} {:>7} {:>9} {:>9}\n", "file", width,
-                  "npts", "dt", "PGA", "Arias", "D5-95", "Tm", "PGV", "MASI");
-  text += fmt::format("{:<{}} {:>7} {:>7} {:>8} {:>10} {:>8} {:>7} {:>9} {:>9}\n", "", width, "",
-                      "s", "g", "m/s", "s", "s", "cm/s", "m/s");
+  std::string text = fmt::format("{:<{}}", "file", width);
+  for (const Column& c : kMeasured) text += fmt::format(" {:>{}}", c.name, c.width);
+  text += fmt::format("\n{:<{}}", "", width);
+  for (const Column& c : kMeasured) text += fmt::format(" {:>{}}", c.unit, c.width);
+  text += '\n';
   for (const MotionRow& row : rows) {
-    const MotionMeasures& m = row.measures;
-    text += fmt::format(
-        "{:<{}} {:>7} {:>7.5g} {:>8.4f} {:>10.4g} {:>8.2f} {:>7.3f} {:>9.2f} {:>9.3f}\n", row.file,
-        width, row.npts, row.dt, m.pga / kGravity, m.arias, m.d5_95, m.tm, 100.0 * m.pgv, m.masi);
+    text += fmt::format("{:<{}}", row.file, width);
+    const auto values = cells(row);
+    for (std::size_t i = 0; i < kMeasured.size(); ++i)
+      text += fmt::format(" {:>{}}", values[i], kMeasured[i].width);
+    text += '\n';
   }
-  if (scale_to)
-    text += fmt::format("PGV and MASI after scaling to {:.4g} g\n", *scale_to / kGravity);
-  return text;
+  return text + scaling(scale_to);
+}
+
+std::string motion_list(std::span<const MotionRow> rows, std::optional<double> scale_to) {
+  std::string text;
+  for (const MotionRow& row : rows) {
+    text += row.file + '\n';
+    const auto values = cells(row);
+    for (std::size_t i = 0; i < kMeasured.size(); ++i)
+      text += fmt::format("  {:<6} {:>10} {}\n", kMeasured[i].name, values[i], kMeasured[i].unit);
+  }
+  return text + scaling(scale_to);
 }
 
 std::string motion_json(std::span<const MotionRow> rows) {

@@ -27,6 +27,8 @@ MotionRow measure_record(const std::filesystem::path& path, std::optional<double
 
 /// Aligned columns with their units, for people.
 std::string motion_table(std::span<const MotionRow> rows, std::optional<double> scale_to = {});
+/// The same with a line for each measure, for narrow terminals.
+std::string motion_list(std::span<const MotionRow> rows, std::optional<double> scale_to = {});
 
 /// [{"file", "npts", "dt_s", "pga_g", "arias_m_s", "d5_95_s", "tm_s", "pgv_cm_s", "masi_m_s"}]
 std::string motion_json(std::span<const MotionRow> rows);

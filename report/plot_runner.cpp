@@ -11,10 +11,6 @@ namespace fs = std::filesystem;
 namespace flowslide {
 namespace {
 
-constexpr const char* kInstall =
-    "(figures need Python 3 with NumPy and Matplotlib) install the Debian package "
-    "python3-matplotlib or name an interpreter in the setting 'python', then build the report "
-    "again";
 constexpr double kLookSeconds = 60.0;  ///< for the question what an interpreter has
 constexpr int kSystemError = 74;       ///< of plot.py, see there
 constexpr std::uint64_t kLongestLog = 1u << 30;
@@ -35,36 +31,58 @@ std::string last_lines(const fs::path& log, const std::string& scripts) {
   return text.size() > most ? "..." + text.substr(text.size() - most) : text;
 }
 
-std::optional<std::string> find_python(const std::optional<std::string>& wanted,
-                                       const TemporaryFolder& work, const Progress& progress) {
+struct Interpreter {
+  std::string name;
+  int status = 0;  ///< 0 if it has what figures need
+};
+
+/// The first that will do, else the last that was tried.
+Interpreter find_python(const std::optional<std::string>& wanted, const TemporaryFolder& work,
+                        const Progress& progress) {
   const std::vector<std::string> candidates =
       wanted ? std::vector{*wanted} : std::vector<std::string>{"python3", "/usr/bin/python3"};
-  for (const std::string& python : candidates)
-    if (run_helper({isolated(python,
-                             "import importlib.util as u, sys; "
-                             "sys.exit(not (u.find_spec('matplotlib') and u.find_spec('numpy')))"),
-                    work / "", work / "look.log", kLookSeconds},
-                   progress)
-            .status == 0)
-      return python;
-  return std::nullopt;
+  Interpreter tried;
+  for (const std::string& python : candidates) {
+    tried = {python, run_helper({isolated(python,
+                                          "import importlib.util as u, sys; "
+                                          "sys.exit(not (u.find_spec('matplotlib') and "
+                                          "u.find_spec('numpy')))"),
+                                 work / "", work / "look.log", kLookSeconds},
+                                progress)
+                         .status};
+    if (tried.status == 0) break;
+  }
+  return tried;
+}
+
+/// Why an interpreter will not do.
+std::string no_python(const Interpreter& tried, bool wanted, const FigureLimits& limits) {
+  constexpr int kNotThere = 127;
+  const std::string what = !wanted ? "no interpreter was found"
+                           : tried.status == kNotThere
+                               ? fmt::format("there is no program '{}'", tried.name)
+                               : fmt::format("'{}' cannot draw them", tried.name);
+  return fmt::format(
+      "No figures were drawn: {} (it takes Python 3 with NumPy and Matplotlib) install the Debian "
+      "package python3-matplotlib, or name an interpreter {}, and {}.",
+      what, limits.named_by, limits.again);
 }
 
 /// Why there are no figures; empty if there are.
-std::string problem_of(const HelperOutcome& outcome, const std::string& python, double seconds,
-                       const std::string& last_words) {
+std::string problem_of(const HelperOutcome& outcome, const std::string& python,
+                       const FigureLimits& limits, const std::string& last_words) {
   if (outcome.timed_out)
     return fmt::format(
         "No figures were drawn: {} had not ended after {:.0f} s (it was ended) look for what "
-        "keeps the machine busy, then build the report again.",
-        python, seconds);
+        "keeps the machine busy, then {}.",
+        python, limits.seconds, limits.again);
   if (outcome.status == kSystemError)
     throw FileError(fmt::format("the figures cannot be drawn:\n{}", last_words));
   if (outcome.status != 0)
     return fmt::format(
         "No figures were drawn: {} ended with status {} (the cause is in its last words) mend it "
-        "and build the report again:\n{}",
-        python, outcome.status, last_words);
+        "and {}:\n{}",
+        python, outcome.status, limits.again, last_words);
   return "";
 }
 
@@ -84,11 +102,9 @@ std::string run_plot_script(const std::string& function, const std::vector<std::
   const TemporaryFolder work;
   write_plot_scripts(work / "");
   write_file(work / kWorkflowScript.first.data(), kWorkflowScript.second);
-  const auto interpreter = find_python(python, work, limits.progress);
-  if (!interpreter)
-    return fmt::format("No figures were drawn: {} {}.",
-                       python ? "'" + *python + "' cannot be used" : "none was found", kInstall);
-  HelperRun run{.arguments = isolated(*interpreter,
+  const Interpreter interpreter = find_python(python, work, limits.progress);
+  if (interpreter.status != 0) return no_python(interpreter, python.has_value(), limits);
+  HelperRun run{.arguments = isolated(interpreter.name,
                                       "import sys; sys.path.insert(0, sys.argv[1]); "
                                       "import importlib; "
                                       "m, f = sys.argv[2].split('.'); "
@@ -100,8 +116,7 @@ std::string run_plot_script(const std::string& function, const std::vector<std::
   run.arguments.push_back(function);
   run.arguments.insert(run.arguments.end(), arguments.begin(), arguments.end());
   const HelperOutcome outcome = run_helper(run, limits.progress);
-  return problem_of(outcome, *interpreter, limits.seconds,
-                    last_lines(run.log, (work / "").string()));
+  return problem_of(outcome, interpreter.name, limits, last_lines(run.log, (work / "").string()));
 }
 
 }  // namespace flowslide

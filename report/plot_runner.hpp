@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace flowslide {
@@ -11,6 +12,8 @@ namespace flowslide {
 struct FigureLimits {
   Progress progress;       ///< a request to stop ends the interpreter
   double seconds = 120.0;  ///< so does this time
+  /// For messages: how an interpreter is named, and what to do when it is there.
+  std::string_view named_by = "in the setting 'python'", again = "build the report again";
 };
 
 /// Writes the scripts that draw figures into an existing folder; returns their paths from the

@@ -46,9 +46,17 @@ void draw_workflow(const WorkflowPlot& plot, const QuadMesh& mesh, const fs::pat
   const TemporaryFolder work;
   const fs::path data = work / "section.json", drawn = work / ("section" + ending).c_str();
   write_file(data, as_json(plot, mesh).dump());
-  const std::string problem =
-      run_plot_script("plot_workflow.run", {data.string(), drawn.string()}, python, {progress});
-  if (!problem.empty()) throw NumericsError(problem);
+  FigureLimits limits{progress};
+  limits.named_by = "with --python";
+  limits.again = "run the command again";
+  std::string problem =
+      run_plot_script("plot_workflow.run", {data.string(), drawn.string()}, python, limits);
+  if (problem.empty() && !is_there(drawn))
+    problem = fmt::format(
+        "No figures were drawn: '{}' ran and left none (it is no Python 3) name another "
+        "interpreter with --python.",
+        python.value_or("python3"));
+  if (!problem.empty()) throw FileError(problem);
   write_file(out, read_file(drawn, std::uint64_t{1} << 30));
 }
 

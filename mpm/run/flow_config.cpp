@@ -1,5 +1,7 @@
 #include "mpm/run/flow_config.hpp"
 
+#include "core/conventions.hpp"
+
 namespace flowslide {
 
 namespace {
@@ -51,6 +53,8 @@ void check(const FlowConfig& c) {
       !c.sleep || (c.update == mpm::Update::symplectic && c.transfer != mpm::Transfer::fmpm),
       "sleep needs update symplectic and another transfer than fmpm (the others map all points "
       "more than once in a step) change them or leave sleep out");
+  validate(c.tractions.empty() || !c.extrude,
+           "tractions: act in plane strain (with extrude the run has 3 dimensions) leave one out");
   validate(!c.side_rollers || (*c.side_rollers)[0] < (*c.side_rollers)[1],
            "the first of side_rollers is not below the second (nothing lies between them) swap "
            "them");
@@ -86,9 +90,10 @@ void Schema<RestRule>::describe(FieldVisitor& v, RestRule& c) {
 void Schema<TerrainSettings>::describe(FieldVisitor& v, TerrainSettings& c) {
   v.file("file", c.file, "ESRI ASCII grid of heights (.asc); level beyond its edges");
   v.tuple("origin", c.origin, Dim::length, "map coordinates of x = y = 0");
-  v.quantity("heading", c.heading, Dim::angle, {},
+  v.quantity("heading", c.heading, Dim::angle, {.min = -2.0 * kPi, .max = 2.0 * kPi},
              "direction of x on the map, counter-clockwise from its first axis (east)");
-  v.quantity("level", c.level, Dim::length, {}, "height on the map that is z = 0");
+  v.quantity("level", c.level, Dim::length, {.min = -12e3, .max = 12e3},
+             "height on the map that is z = 0");
 }
 
 void Schema<GroundSettings>::describe(FieldVisitor& v, GroundSettings& c) {
@@ -109,7 +114,7 @@ void Schema<AbsorbingSettings>::describe(FieldVisitor& v, AbsorbingSettings& c) 
 
 void Schema<ExtrudeSettings>::describe(FieldVisitor& v, ExtrudeSettings& c) {
   static constexpr std::array<std::string_view, 3> sides{"smooth", "rough", "open"};
-  v.quantity("width", c.width, Dim::length, {.above = 0.0}, "width of the valley");
+  v.quantity("width", c.width, Dim::length, {.min = 1e-3, .max = 1e5}, "width of the valley");
   v.choice("sides", c.sides, sides,
            "upright walls on both sides: smooth as in plane strain, or rough with the friction of "
            "the ground; open: none, the terrain holds the soil");

@@ -4,6 +4,7 @@
 #include "core/elementary.hpp"
 #include "core/odd_characters.hpp"
 #include "core/unreadable.hpp"
+#include "mpm/walls/is_height_field.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -25,8 +26,9 @@ Cell find_cell(const HeightField& f, double x, double y) {
   const double c = cos(f.place.heading), s = sin(f.place.heading);
   const double east = f.place.origin[0] + c * x - s * y;
   const double north = f.place.origin[1] + s * x + c * y;
-  const double i = std::clamp((east - f.corner[0]) / f.spacing, 0.0, f.columns - 1.0);
-  const double j = std::clamp((north - f.corner[1]) / f.spacing, 0.0, f.rows - 1.0);
+  // A place that is no number must not become an index: max and min hand on their first argument.
+  const double i = std::min(f.columns - 1.0, std::max(0.0, (east - f.corner[0]) / f.spacing));
+  const double j = std::min(f.rows - 1.0, std::max(0.0, (north - f.corner[1]) / f.spacing));
   const int column = std::min(static_cast<int>(i), f.columns - 2);
   const int row = std::min(static_cast<int>(j), f.rows - 2);
   return {column, row, i - column, j - row};
@@ -75,20 +77,30 @@ class GridFile {
   [[nodiscard]] int line() const { return line_; }
   [[nodiscard]] std::string place() const { return fmt::format("{}:{}", name_, line_); }
   [[nodiscard]] const std::string& name() const { return name_; }
-  [[nodiscard]] double number(std::string_view word) const {
+  [[nodiscard]] double height(std::string_view word) const {
+    return number(word,
+                  "(heights are plain numbers with blanks between them) mark missing ones with the "
+                  "nodata_value of the header, such as -9999");
+  }
+  /// Of the header.
+  [[nodiscard]] double header_number(const std::string& key, std::string_view word) const {
+    return number(word, key == "nodata_value"
+                            ? "(missing heights cannot be told from others by it) export the "
+                              "terrain with a number, such as -9999"
+                            : fmt::format("(it is the {} of the grid) correct the header", key));
+  }
+
+ private:
+  [[nodiscard]] double number(std::string_view word, std::string_view hint) const {
     double value = kUnset;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error == std::errc{} && end == word.data() + word.size() && std::isfinite(value))
       return value;
     const std::string odd = odd_characters(word);
-    throw InputError(fmt::format(
-        "{}: '{}' {}", place(), word.substr(0, 40),
-        odd.empty() ? "is not a finite number (heights are plain numbers) mark missing ones with "
-                      "the nodata_value of the header"
-                    : odd));
+    throw InputError(
+        fmt::format("{}: '{}' {}", place(), word.substr(0, 40),
+                    odd.empty() ? fmt::format("is not a finite number {}", hint) : odd));
   }
-
- private:
   /// The first bytes of images and of UTF-16 tell themselves.
   void expect_text(std::string_view start) const {
     const bool is_text = std::none_of(start.begin(), start.end(), [](char c) {
@@ -97,6 +109,11 @@ class GridFile {
     validate(is_text,
              "{}: holds control characters (a binary grid such as GeoTIFF, an archive or UTF-16 "
              "text) export the terrain as Arc/Info ASCII grid, and save it as plain text",
+             name_);
+    const std::size_t line_end = start.find('\r');
+    validate(line_end == std::string_view::npos || line_end + 1 == start.size(),
+             "{}: a carriage return without a line feed (line ends of an old text format) save it "
+             "with Unix or Windows line ends",
              name_);
   }
 
@@ -129,6 +146,22 @@ constexpr double kUsualNoData = -9999.0;
 constexpr double kLowestGround = -1100.0, kHighestGround = 9000.0;
 
 constexpr int kFewest = 2, kMost = 100000;
+// From sand boxes in the laboratory to maps of the world [m].
+constexpr double kFinest = 1e-6, kCoarsest = 1e6;
+constexpr double kMostCells = 1e12;  ///< from the origin of the map to its corner
+
+constexpr std::array<std::string_view, 8> kHeaderWords{"ncols",     "nrows",       "xllcorner",
+                                                       "yllcorner", "xllcenter",   "yllcenter",
+                                                       "cellsize",  "nodata_value"};
+
+/// Corners may be told of the lowest cell on the left or of its middle.
+void check_corners(const GridFile& file, const std::map<std::string, double>& value) {
+  for (const auto& [corner, centre] :
+       {std::pair("xllcorner", "xllcenter"), std::pair("yllcorner", "yllcenter")})
+    validate(value.count(corner) + value.count(centre) < 2,
+             "{}: {} and {} are both given (they are half a cell apart) remove one", file.name(),
+             corner, centre);
+}
 
 /// Reads up to the first row of heights, whose words are left in the file's line.
 Header read_header(GridFile& file) {
@@ -137,17 +170,17 @@ Header read_header(GridFile& file) {
   for (; more && std::isalpha(static_cast<unsigned char>(file.words()[0][0])); more = file.next()) {
     const std::string key = lower(file.words()[0]);
     if (key == "nan" || key == "inf") break;
-    static constexpr std::array<std::string_view, 8> known{"ncols",     "nrows",       "xllcorner",
-                                                           "yllcorner", "xllcenter",   "yllcenter",
-                                                           "cellsize",  "nodata_value"};
-    validate(std::find(known.begin(), known.end(), key) != known.end() && file.words().size() == 2,
+    const bool known =
+        std::find(kHeaderWords.begin(), kHeaderWords.end(), key) != kHeaderWords.end();
+    validate(known && file.words().size() == 2,
              "{}: '{}' is no line of the header of an ESRI ASCII grid (it has ncols, nrows, "
              "xllcorner, yllcorner, cellsize and nodata_value, each with one number) export the "
              "terrain as Arc/Info ASCII grid with square cells",
              file.place(), file.words()[0].substr(0, 40));
-    validate(value.emplace(key, file.number(file.words()[1])).second,
+    validate(value.emplace(key, file.header_number(key, file.words()[1])).second,
              "{}: {} is given twice (only one can hold) remove one", file.place(), key);
   }
+  check_corners(file, value);
   const auto need = [&](const char* key, const char* other = nullptr) {
     if (other && value.count(other)) return value.at(other);
     validate(value.count(key) > 0,
@@ -169,11 +202,20 @@ Header read_header(GridFile& file) {
            "cut, or the header is wrong; copy or export it again",
            file.name(), columns, rows);
   h.spacing = need("cellsize");
-  validate(h.spacing > 0.0, "{}: cellsize is {:g} (it is a length) check the header", file.name(),
-           h.spacing);
+  validate(h.spacing >= kFinest && h.spacing <= kCoarsest,
+           "{}: cellsize is {:g} (a length from {:g} to {:g} m is read) check the header and the "
+           "unit of the map",
+           file.name(), h.spacing, kFinest, kCoarsest);
   const bool centre_x = value.count("xllcenter") > 0, centre_y = value.count("yllcenter") > 0;
   h.corner = {need("xllcorner", "xllcenter") + (centre_x ? 0.0 : 0.5 * h.spacing),
               need("yllcorner", "yllcenter") + (centre_y ? 0.0 : 0.5 * h.spacing)};
+  // Beyond, a coordinate could not tell neighbours.
+  for (const double at : h.corner)
+    validate(
+        std::abs(at) < h.spacing * kMostCells,
+        "{}: the corner lies at {:g} and {:g} m (its place is lost in rounding beside cells of "
+        "{:g} m) check the header and the unit of the map",
+        file.name(), h.corner[0], h.corner[1], h.spacing);
   h.no_data = value.count("nodata_value") ? value.at("nodata_value") : kUsualNoData;
   validate(more, "{}: ends after its header (it has no heights) export the terrain anew",
            file.name());
@@ -220,13 +262,13 @@ HeightField read_height_field(const std::filesystem::path& path, const MapPlace&
              "or export it again",
              file.place(), row, f.rows);
     if (std::ssize(file.words()) != f.columns)  // a word that is no number says more
-      for (const std::string_view word : file.words()) (void)file.number(word);
+      for (const std::string_view word : file.words()) (void)file.height(word);
     validate(std::ssize(file.words()) == f.columns,
              "{}: {} heights in this line (the header says ncols {}) write every row of the grid "
              "on a line of its own",
              file.place(), file.words().size(), f.columns);
     for (int i = 0; i < f.columns; ++i) {
-      const double value = file.number(file.words()[i]);
+      const double value = file.height(file.words()[i]);
       const bool missing = value == header.no_data;
       if (!missing && !(value > kLowestGround && value < kHighestGround))
         throw InputError(fmt::format(
@@ -248,7 +290,18 @@ HeightField read_height_field(const std::filesystem::path& path, const MapPlace&
            "{}: more rows of heights than nrows {} (the header and the rows disagree) export the "
            "terrain anew",
            file.place(), f.rows);
+  validate(std::any_of(height.begin(), height.end(), [](double h) { return is_set(h); }),
+           "{}: every height is {:g}, the mark of missing data (there is no ground) export the "
+           "terrain of the place anew",
+           f.source, header.no_data);
   return f;
+}
+
+bool is_height_field(std::string_view head) {
+  if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
+  head.remove_prefix(std::min(head.find_first_not_of(" \t\r\n"), head.size()));
+  const std::string word = lower(head.substr(0, head.find_first_of(" \t\r\n:=")));
+  return std::find(kHeaderWords.begin(), kHeaderWords.end(), word) != kHeaderWords.end();
 }
 
 void check_covered(const HeightField& field, std::span<const double> x, std::span<const double> y,

@@ -81,6 +81,9 @@ std::vector<Line> read_csv(const YamlNode& node) {
         fmt::format("{}: holds NUL bytes (a binary file or UTF-16 text) save it as CSV in UTF-8.",
                     path.string()));
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  // Of old line ends each is one; of the usual two bytes one remains for getline.
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (text[i] == '\r') text[i] = i + 1 < text.size() && text[i + 1] == '\n' ? ' ' : '\n';
   std::vector<Line> lines;
   std::istringstream in(text);
   std::size_t number = 0;

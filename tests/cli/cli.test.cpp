@@ -312,6 +312,15 @@ TEST_CASE("a section is drawn before anything runs", "[cli]") {
   CHECK(other.code == 2);
   CHECK_THAT(other.err, Contains(".png, .svg and .pdf"));
   CHECK_FALSE(std::filesystem::exists(scratch / "section.bmp"));
+  const std::vector<std::pair<std::string, std::string>> no_python{
+      {"/nope", "there is no program '/nope'"},
+      {"/bin/false", "'/bin/false' cannot draw them (it takes Python 3"},
+      {"/bin/true", "'/bin/true' ran and left none"}};
+  for (const auto& [python, text] : no_python) {
+    const Outcome none = call(scratch, "plot " + file + " --out s.png --python " + python);
+    CHECK(none.code == 4);
+    CHECK_THAT(none.err, Contains(text) && Contains("--python") && !Contains("report"));
+  }
 }
 
 TEST_CASE("a point is driven from its file", "[cli]") {
@@ -331,7 +340,30 @@ TEST_CASE("a point is driven from its file", "[cli]") {
   scratch.write("empty.yaml", "material: {}\nstress: {vertical: 1 kPa}\nsimple_shear: {}\n");
   const Outcome none = call(scratch, "point empty.yaml");
   CHECK(none.code == 2);
-  CHECK_THAT(none.err, Contains("0 constitutive laws"));
+  CHECK_THAT(none.err, Contains("empty.yaml:1:11: material: ") && Contains("0 constitutive laws"));
+  const std::vector<std::pair<std::string, std::string>> places{
+      {"material.pm4sand.emax=0.1", "cyclic-shear.yaml:6:12: material.pm4sand: emax"},
+      {"simple_shear.stop_strain=1e-6", "cyclic-shear.yaml:9:3: simple_shear: strain_step: 5e-06"},
+      {"stress.vertical=1e300 Pa", "cyclic-shear.yaml: simple shear: the stress is not finite"},
+      {"material.pm4sand.nb=1e300", "material.pm4sand: the state at the start has no"},
+      {"material.pm4sand.tolerance=1e-300", "tolerance: '1e-300' is out of range"},
+      {"material.pm4sand.P_atm=101.3 Pa", "P_atm: '101.3 Pa' is out of range"}};
+  for (const auto& [set, text] : places) {
+    const Outcome refused = call(scratch, "point " + file + " --set '" + set + "'");
+    CHECK((refused.code == 2 || refused.code == 3));
+    CHECK_THAT(refused.err, Contains(text));
+  }
+  const Outcome coarse = call(scratch, "point " + file + " --set simple_shear.csr=0.001");
+  CHECK(coarse.code == 0);
+  CHECK_THAT(coarse.err, Contains("warning: simple_shear: shearing turned"));
+}
+
+TEST_CASE("inspect ends with 2 for terrain that cannot be read", "[cli]") {
+  const Scratch scratch;
+  scratch.write("t.asc", "nrows 2\nncols 2\nxllcorner 0\nyllcorner 0\ncellsize 0\n1 2\n3 4\n");
+  const Outcome o = call(scratch, "inspect t.asc");
+  CHECK(o.code == 2);
+  CHECK_THAT(o.out, Contains("cellsize is 0"));
 }
 
 TEST_CASE("files are converted by kind and ending", "[cli]") {

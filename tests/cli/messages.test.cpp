@@ -1,5 +1,9 @@
 #include "tests/cli/program.hpp"
 
+#include <cmath>
+#include <sstream>
+#include <sys/stat.h>
+
 using namespace flowslide;
 using namespace flowslide::cli::test;
 using Catch::Contains;
@@ -30,6 +34,14 @@ TEST_CASE("what a command line has wrong is named with what may be meant", "[cli
       {"docs '~'", "'~' is not expanded"},
       {"motion x.csv --pga 0.3", "--pga: '0.3' has no unit"},
       {"motion x.csv --dt 0.01g", "--dt: "},
+      {"motion x.csv --pga ''", "--pga: is empty"},
+      {"motion x.csv --pga=-1g", "--pga: '-1g' is no peak"},
+      {"motion x.csv --pga 1e9g", "--pga: '1e9g' is no peak"},
+      {"motion x.csv --unit ' '", "--unit: is blank"},
+      {"motion x.csv --unit gg", "--unit: unknown unit 'gg'"},
+      {"motion x.csv --time-column=-1", "not in range 0 to 10000"},
+      {"convert x.csv y.h5 --unit gg", "--unit: unknown unit 'gg'"},
+      {"plot x.yaml --python ''", "--python: is empty"},
       {"run ''", "file: is empty"},
       {"check ' '", "file: is blank"},
       {"motion ''", "files: is empty"},
@@ -179,6 +191,66 @@ TEST_CASE("lines are whole in a file, and errors are wrapped on a terminal", "[c
   for (std::size_t at = 0; (at = shown.find("\n       ")) != std::string::npos;)
     shown.replace(at, 8, " ");
   CHECK(shown == error);
+}
+
+TEST_CASE("what is read is not written over, and no device is replaced", "[cli]") {
+  const Scratch scratch;
+  const std::string text = "0.00 0.1\n0.01 0.2\n0.02 -0.1\n";
+  scratch.write("a.csv", text);
+  scratch.write("p.yaml", "material: {}\n");
+  REQUIRE(::mkfifo((scratch / "pipe.csv").c_str(), 0600) == 0);
+  for (const char* same : {"convert a.csv a.csv --unit g", "convert a.csv ./a.csv --unit g",
+                           "point p.yaml --csv p.yaml"}) {
+    CAPTURE(same);
+    const Outcome o = call(scratch, same);
+    CHECK(o.code == 2);
+    CHECK_THAT(o.err, Contains("is the file that is read"));
+  }
+  CHECK(read_text_file(scratch / "a.csv") == text);
+  const Outcome pipe = call(scratch, "convert a.csv pipe.csv --unit g");
+  CHECK(pipe.code == 4);
+  CHECK_THAT(pipe.err, Contains("'pipe.csv' is a pipe or a device"));
+  CHECK(std::filesystem::is_fifo(scratch / "pipe.csv"));
+}
+
+TEST_CASE("what lists things fits a narrow terminal", "[cli]") {
+  const Scratch scratch;
+  write_model(scratch);
+  REQUIRE(run(scratch, shake()).code == 0);
+  std::string record =
+      "PEER\nTest\nACCELERATION TIME HISTORY IN UNITS OF G\nNPTS= 200, DT= .01 SEC\n";
+  for (int i = 0; i < 200; ++i) record += std::to_string(0.1 * std::sin(0.3 * i)) + "\n";
+  scratch.write("a.at2", record);
+  for (const std::size_t columns : {40u, 60u, 80u}) {
+    for (const char* arguments : {"--help", "run --help", "study run --help", "motion --help",
+                                  "bench --list", "verify --list", "inspect out", "motion a.at2"}) {
+      CAPTURE(arguments, columns);
+      const std::string shown = on_terminal(scratch, arguments, columns);
+      std::istringstream lines(shown);
+      for (std::string line; std::getline(lines, line);) {
+        std::erase(line, '\r');
+        CAPTURE(line);
+        CHECK(line.size() <= columns);
+      }
+    }
+  }
+  CHECK_THAT(on_terminal(scratch, "motion a.at2", 60), Contains("PGA        0.1000 g"));
+  // Nothing is lost by it, and whoever reads a pipe gets whole lines.
+  const auto words = [](const std::string& text) {
+    std::istringstream in(text);
+    std::vector<std::string> all;
+    for (std::string word; in >> word;) all.push_back(word);
+    return all;
+  };
+  for (const char* arguments : {"run --help", "verify --list"}) {
+    const std::string piped = call(scratch, arguments).out;
+    CHECK(words(on_terminal(scratch, arguments, 40)) == words(piped));
+  }
+  const std::string piped = call(scratch, "verify --list").out;
+  CHECK_THAT(
+      piped,
+      Contains("fem/f1_patch               constant states on distorted elements (quick)\n"));
+  CHECK_THAT(call(scratch, "motion a.at2").out, Contains("D5-95"));
 }
 
 TEST_CASE("numbers in two pairs of quotes and odd blanks are named", "[cli]") {

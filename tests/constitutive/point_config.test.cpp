@@ -106,8 +106,81 @@ TEST_CASE("settings of a point that cannot be run are refused", "[point]") {
   c = elastic();
   c.path = {{.strain_xx = 1e-3, .stress_xx = -1e3}};
   CHECK_THROWS_WITH(check(c), Contains("leg 1") && Contains("xx"));
+  c.path = {{.gamma_xy = 1e-3}, {}};
+  CHECK_THROWS_WITH(check(c), Contains("path.1: leg 2 gives no strain and no stress"));
+  c.path.assign(30, {.gamma_xy = 1e-3, .steps = 1000000});
+  CHECK_THROWS_WITH(check(c), Contains("path: 3e+07 steps"));
+  c.path.clear();
+  c.simple_shear.emplace();
+  c.simple_shear->csr = 0.1;
+  c.simple_shear->stop_strain = 10.0;
+  c.simple_shear->strain_step = 1e-8;
+  CHECK_THROWS_WITH(check(c), Contains("about 1e+09 steps"));
+  c.simple_shear.emplace().stop_strain = 1e-6;
+  CHECK_THROWS_WITH(check(c), Contains("simple_shear.strain_step: 5e-06 is more than"));
   c.material.laws.of<LinearElastic>().reset();
-  CHECK_THROWS_WITH(check(c), Contains("0 constitutive laws"));
+  CHECK_THROWS_WITH(check(c), Contains("material: ") && Contains("0 constitutive laws"));
+}
+
+TEST_CASE("what a run gives to every point is not left out of a test", "[point]") {
+  PointConfig c;
+  ResidualStrength::Params& liquefied = c.material.laws.of<ResidualStrength>().emplace();
+  liquefied.youngs_modulus = 10e6;
+  liquefied.poisson_ratio = 0.45;
+  liquefied.strength = 5e3;
+  c.stress.vertical = 50e3;
+  c.stress.k0 = 1.0;
+  c.simple_shear.emplace();
+  // It would be elastic for ever: no number exceeds one that is not there.
+  CHECK_THROWS_WITH(run_point(c),
+                    Contains("material.residual_strength: 'soft_strength' is missing"));
+  c.material.laws.of<ResidualStrength>()->soft_strength = 5e3;
+  CHECK(run_point(c).rows.back().tau == Approx(5e3));
+  c.material.laws = {};
+  ModifiedCamClay::Params& clay = c.material.laws.of<ModifiedCamClay>().emplace();
+  clay.critical_ratio = 1.2;
+  clay.compression_index = 0.1;
+  clay.swelling_index = 0.02;
+  clay.poisson_ratio = 0.3;
+  CHECK_THROWS_WITH(run_point(c), Contains("'preconsolidation' is missing"));
+}
+
+TEST_CASE("a test does not begin from a stress that the law cannot carry", "[point]") {
+  PointConfig c;
+  MohrCoulomb::Params& soil = c.material.laws.of<MohrCoulomb>().emplace();
+  soil.youngs_modulus = 20e6;
+  soil.poisson_ratio = 0.3;
+  soil.cohesion = 1e3;
+  soil.friction_angle = 0.5;
+  c.stress.vertical = 100e3;
+  c.simple_shear.emplace();
+  CHECK(run_point(c).warnings.empty());
+  for (const auto& [k0, shear] : {std::pair(0.0, 0.0), {10.0, 0.0}, {0.5, 90e3}, {0.5, -90e3}}) {
+    c.stress.k0 = k0;
+    c.stress.shear = shear;
+    CHECK_THROWS_WITH(run_point(c), Contains("stress: mohr_coulomb cannot carry 100 kPa vertical"));
+  }
+  PointConfig sand = tailings();
+  sand.simple_shear->stop_strain = 1e-4;
+  CHECK(run_point(sand).warnings.empty());
+  sand.stress.shear = 90e3;
+  const std::vector<std::string> warnings = run_point(sand).warnings;
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Contains("pm4sand cannot carry all of the stress"));
+}
+
+TEST_CASE("shearing that turns too late is told", "[point]") {
+  PointConfig c = tailings();
+  c.simple_shear->csr = 0.09;
+  c.simple_shear->max_cycles = 2;
+  CHECK(run_point(c).warnings.empty());
+  c.simple_shear->csr = 0.001;  // the stress of half a step
+  const std::vector<std::string> warnings = run_point(c).warnings;
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Contains("times what was asked for") && Contains("strain_step"));
+  c.simple_shear->csr.reset();
+  c.simple_shear->reversal_strain = 5.1e-6;
+  CHECK_THAT(run_point(c).warnings.at(0), Contains("a shear strain of"));
 }
 
 TEST_CASE("a stress beyond the strength names its leg", "[point]") {

@@ -2,6 +2,8 @@
 
 #include "core/check.hpp"
 
+#include <cmath>
+
 #include <catch2/catch.hpp>
 
 using namespace flowslide;
@@ -47,6 +49,23 @@ TEST_CASE("A mixed step says that a stress is beyond the strength", "[point]") {
   CHECK(p.stress[3] == 0.0);
 }
 
+TEST_CASE("A mixed step ends where the law has no number to give", "[point]") {
+  int calls = 0;
+  PointUnderTest p = make_point(
+      Stress<2>{{-50e3, -100e3, -50e3, 0.0}}, Nothing{},
+      [&calls](const Stress<2>& s, const Nothing&, const StrainIncrement<2>& de) {
+        ++calls;
+        Stress<2> r = hooke<2>(kSoil, s, de);
+        if (r[3] > 5e3) r[3] = std::nan("");
+        return Answer{r, {}};
+      },
+      [](const Stress<2>&, const Nothing&) { return kSoil; });
+  CHECK_THROWS_WITH(
+      mixed_step(p, {Prescribed{}, Prescribed{}, Prescribed::stress_value(6e6)}, 1e-3),
+      Catch::Contains("not finite"));
+  CHECK(calls < 100);
+}
+
 TEST_CASE("Simple shear turns at the prescribed stress", "[point]") {
   PointUnderTest p = point();
   SimpleShear shear;
@@ -71,6 +90,15 @@ TEST_CASE("The loop of an elastic-plastic point has the known damping", "[point]
   const Loop loop = last_loop(run_simple_shear(p, shear));
   CHECK(loop.secant_modulus == Approx(1e3 / 4e-4).epsilon(1e-6));
   CHECK(loop.damping == Approx(1.5 / 3.14159265358979).epsilon(1e-3));
+}
+
+TEST_CASE("Simple shear that does not end is refused", "[point]") {
+  PointUnderTest p = point();
+  SimpleShear shear;
+  shear.reversal_stress = 1e3;
+  shear.max_half_cycles = 1000000;
+  shear.max_steps = 1000;
+  CHECK_THROWS_AS(run_simple_shear(p, shear), InputError);
 }
 
 TEST_CASE("Simple shear refuses a step that leads nowhere", "[point]") {

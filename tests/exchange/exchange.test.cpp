@@ -101,6 +101,9 @@ TEST_CASE("a terrain is told with its place and heights") {
   CHECK(j["missing"] == 1);
   scratch.write("cut.asc", header + "1 2 3\n");
   CHECK_THAT(inspect(scratch / "cut.asc")["problems"].dump(), Contains("ends after 1 rows"));
+  scratch.write("turned.asc",
+                "\n nrows 2\nncols 3\nxllcorner 1\nyllcorner 5\ncellsize 10\n1 2 3\n4 5 6\n");
+  CHECK(inspect(scratch / "turned.asc")["kind"] == "terrain");
 }
 
 TEST_CASE("a conversion is chosen by both ends") {

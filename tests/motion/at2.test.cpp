@@ -168,6 +168,9 @@ TEST_CASE("AT2 files that cannot be meant are refused with their line", "[motion
   CHECK_THAT(with("NPTS= 7, DT= -.02 SEC"), Contains("DT is -0.02 s"));
   CHECK_THAT(with("NPTS= 7.5, DT= .02 SEC"), Contains("NPTS is 7.5"));
   CHECK_THAT(with("NPTS= 0, DT= .02 SEC"), Contains("NPTS is 0"));
+  for (const char* dt : {".02.0", "0,02"})
+    CHECK_THAT(with("NPTS= 7, DT= " + std::string(dt) + " SEC"),
+               Contains("a.AT2:4: '" + std::string(dt) + "' after DT is no number"));
   CHECK_THAT(message(at2("VELOCITY TIME SERIES IN UNITS OF CM/S", kCounts, kData)),
              Contains("a.AT2:3") && Contains("velocity or displacement"));
   CHECK_THAT(message(at2("TIME SERIES IN UNITS OF CM", kCounts, kData)),
@@ -179,5 +182,10 @@ TEST_CASE("AT2 files that cannot be meant are refused with their line", "[motion
   CHECK_THAT(data("0.1 1e999 0.3\n"), Contains("value 2 '1e999'"));
   CHECK_THAT(data("0 0 0 0 0 0 0\n"), Contains("every acceleration is zero"));
   CHECK_THAT(message(""), Contains("is empty"));
+  const std::size_t whole = kData.rfind("E-01\n");
+  for (const std::size_t left : {whole, whole - 3})
+    CHECK_THAT(data(kData.substr(0, left)), Contains("a.AT2:6: the last value has no exponent"));
+  CHECK(data(replaced(kData, "E-01\n", "E-01")) == "no error");
+  CHECK(data("1e-1 2e-1 .3 4e-1 .5 6e-1 7\n") == "no error");
   CHECK_THAT(message(std::string("NPTS\0= 7", 8)), Contains("control characters"));
 }

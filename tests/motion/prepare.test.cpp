@@ -115,8 +115,13 @@ TEST_CASE("settings of a motion that contradict are refused", "[motion]") {
   CHECK_THAT(problem("pga: 0.3 g\n"), Contains("0 of record, preset and synthetic"));
   CHECK_THAT(problem("record: a.at2\npreset: corinth\npga: 0.3 g\n"), Contains("2 of record"));
   CHECK_THAT(problem("preset: corinth\n"), Contains("without pga"));
-  CHECK_THAT(problem("preset: corint\npga: 0.3 g\n"), Contains("unknown motion preset"));
-  CHECK_THAT(problem("record: a.at2\nfilter: {order: 2}\n"), Contains("without high_pass"));
+  CHECK_THAT(problem("preset: corint\npga: 0.3 g\n"),
+             Contains("preset: there is no motion 'corint'") && Contains("did you mean 'corinth'"));
+  CHECK_THAT(problem("preset: tabas\npga: 0.3 g\n"), Contains("did you mean 'tabas-dayhook'"));
+  CHECK_THAT(problem("preset: kobe\npga: 0.3 g\n"), Contains("one of: ") && !Contains("did you"));
+  CHECK_THAT(problem("preset: corinth\npga: 1e6 g\n"),
+             Contains(":2:6: pga: '1e6 g' is out of range"));
+  CHECK_THAT(problem("record: a.at2\nfilter: {order: 2}\n"), Contains("filter: has no high_pass"));
   CHECK_THAT(problem("record: a.at2\npga: 0.3\n"), Contains("no unit"));
   CHECK_THAT(problem("synthetic: {tm: 0.4 s, d5_95: 8 s}\n"), Contains("pga"));
 }

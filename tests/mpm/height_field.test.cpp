@@ -1,5 +1,6 @@
 #include "mpm/walls/height_field.hpp"
 
+#include "mpm/walls/is_height_field.hpp"
 #include "tests/mpm/scene.hpp"
 #include "tests/mpm/solid.hpp"
 #include "tests/support/scratch.hpp"
@@ -84,6 +85,46 @@ TEST_CASE("A bad grid is refused with its line", "[mpm]") {
   CHECK_THAT(input_error([] { read_text("ncols 4\n"); }), Contains("no nrows"));
   CHECK_THAT(input_error([] { read_text(""); }), Contains("no ncols"));
   CHECK_THROWS_AS(read_height_field("/no/such.asc", {}), FileError);
+}
+
+TEST_CASE("A header that contradicts itself or leads nowhere is refused", "[mpm]") {
+  const auto error = [](const std::string& from, const std::string& to) {
+    return input_error([&] { read_text(replaced(kGrid, from, to)); });
+  };
+  for (const char* size : {"-10", "1e-300", "1e-9", "1e300", "1e7"})
+    CHECK_THAT(error("cellsize 10", std::string("cellsize ") + size), Contains("cellsize is"));
+  for (const char* corner : {"1e300", "-1e300", "1e16"})
+    CHECK_THAT(error("xllcorner 100", std::string("xllcorner ") + corner),
+               Contains("is lost in rounding"));
+  CHECK_THAT(error("yllcorner 50", "xllcenter 105\nyllcorner 50"),
+             Contains("xllcorner and xllcenter are both given"));
+  CHECK_THAT(error("cellsize 10", "cellsize ten"),
+             Contains("valley.asc:5: 'ten'") && Contains("it is the cellsize of the grid"));
+  CHECK_THAT(error("NODATA_value -9999", "nodata_value nan"), Contains("such as -9999"));
+  std::string old = kGrid;
+  std::replace(old.begin(), old.end(), '\n', '\r');
+  CHECK_THAT(input_error([&] { read_text(old); }), Contains("carriage return without a line feed"));
+  CHECK_THAT(input_error([] {
+               read_text(
+                   "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n-9999 -9999\n"
+                   "-9999 -9999\n");
+             }),
+             Contains("every height is -9999"));
+}
+
+TEST_CASE("A grid is known by the first word of its header", "[mpm]") {
+  CHECK(is_height_field(kGrid));
+  CHECK(is_height_field("\xEF\xBB\xBFNROWS 3\n"));
+  CHECK(is_height_field("\n  xllcorner 3\n"));
+  CHECK(is_height_field("ncols=3"));
+  for (const char* other : {"", "  ", "1 2 3", "# ncols", "ncolsx 3", "column 3"})
+    CHECK_FALSE(is_height_field(other));
+}
+
+TEST_CASE("A place that is no number has a height that is none", "[mpm]") {
+  const HeightField f = read_text(kGrid);
+  CHECK(f.at(kUnset, 55.0) == f.at(105.0, 55.0));  // no index of the table comes from it
+  for (const double far : {1e300, -1e300}) CHECK(is_set(f.at(far, 75.0)));
 }
 
 TEST_CASE("Missing heights are missing whatever the header says of them", "[mpm]") {

@@ -83,6 +83,8 @@ TEST_CASE("Tables from spreadsheets of other countries are told what is wrong", 
         "a: stages.one.with.value}}}\n");
   };
   CHECK(plan("\xEF\xBB\xBFname,a\r\n1,0.5\r\n").rows.size() == 1);
+  CHECK(plan("# old Mac\rname,a\r1,0.5\r2,0.6\r").rows.size() == 2);
+  CHECK_THROWS_WITH(plan("name,a\r\r1,2,3\r"), Contains("cases.csv:3: has 3 cells"));
   CHECK_THROWS_WITH(plan("name;a\n1;0,5\n"), Contains("It has semicolons"));
   CHECK_THROWS_WITH(plan("name,a\n1,\"0,5\"\n"), Contains("It has a decimal comma"));
   CHECK_THROWS_WITH(plan("name,a\n1,0.5\xC2\xA0\n"), Contains("non-breaking space"));

@@ -448,6 +448,17 @@ audit: {enforce: false}
   bad.materials["tailings"].liquefied->soft_strength = 5e3;
   CHECK_THROWS_WITH(check(bad), Catch::Contains("tailings.liquefied gives soft_strength"));
   bad = c;
+  bad.materials["foundation"].law = {};
+  ResidualStrength::Params& soft = bad.materials["foundation"].law.of<ResidualStrength>().emplace();
+  soft.youngs_modulus = 20e6;
+  soft.poisson_ratio = 0.45;
+  soft.strength = 5e3;
+  CHECK_THROWS_WITH(
+      check(bad),
+      Catch::Contains("materials.foundation.residual_strength: 'soft_strength' is missing"));
+  bad.materials["foundation"].law.of<ResidualStrength>()->soft_strength = 5e3;
+  CHECK_NOTHROW(check(bad));
+  bad = c;
   bad.box = {.left = 1.0, .right = 0.0, .bottom = {}, .top = {}};
   CHECK_THROWS_AS(check(bad), InputError);
   bad = c;

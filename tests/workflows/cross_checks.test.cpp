@@ -159,15 +159,15 @@ TEST_CASE("The ground lies under the soil") {
     return ask([&](FlowConfig& c) { c.ground.surface = surface; }, check_ground);
   };
   CHECK_THAT(on({{0.0, 20.0}}).errors, Contains("15 m below it"));
-  CHECK_THAT(on({{0.0, -40.0}}).warnings, Contains("All of the soil hangs by 40 m"));
+  CHECK_THAT(on({{0.0, -40.0}}).warnings, Contains("as all of the soil by 40 m"));
   CHECK(on({{0.0, -10.0}, {120.0, 0.0}, {200.0, -5.0}}).errors.empty());
   // A cliff below the toe is one thing, one below the soil another.
   CHECK(on({{0.0, 0.0}, {120.0, 0.0}, {120.0, -50.0}}).warnings.empty());
   CHECK_THAT(on({{0.0, 0.0}, {100.0, 0.0}, {100.0, -50.0}}).warnings,
              Contains("x = 105 m, y = 0 m hangs 50 m above"));
-  // Ground that falls away under a base that does not, by more than a cell.
-  CHECK_THAT(on({{0.0, 0.0}, {120.0, -6.0}}).warnings, Contains("y = 0 m hangs 5"));
-  CHECK(on({{0.0, 0.0}, {120.0, -0.5}}).warnings.empty());
+  // Ground that falls away under a base that does not, by more than an element.
+  CHECK_THAT(on({{0.0, 0.0}, {120.0, -14.0}}).warnings, Contains("y = 0 m hangs 12.2"));
+  CHECK(on({{0.0, 0.0}, {120.0, -9.0}}).warnings.empty());
   CHECK(on({{0.0, 0.0}, {120.0, 0.0}, {400.0, 14.0}}).warnings.empty());
   CHECK_THAT(on({{0.0, 0.0}, {130.0, 0.0}, {130.0, 20.0}}).warnings,
              Contains("rises to y = 20 m at x = 130 m, 20 m above the toe"));
@@ -361,9 +361,10 @@ TEST_CASE("Terrain lies under the dam and has heights there") {
     for (int i = 0; i < 30; ++i) text += row + "\n";
     return text;
   };
-  std::string level, gap, marks, step;
+  std::string level, gap, marks, step, cliff;
   for (int i = 0; i < 100; ++i) {
     level += "100 ";
+    cliff += i < 18 ? "100 " : "20 ";
     step += i == 90 ? "0 " : "100 ";
     marks += i == 90 ? "0 " : fmt::format("{} ", 100 - i % 7);
     gap += i == 30 || i == 80 ? "-9999 " : "100 ";
@@ -374,6 +375,11 @@ TEST_CASE("Terrain lies under the dam and has heights there") {
   scratch.write("gap.asc", header + rows(gap));
   scratch.write("marks.asc", header + rows(marks));
   scratch.write("step.asc", header + rows(step));
+  scratch.write("cliff.asc", header + rows(cliff));
+  scratch.write("cut.asc", header.substr(0, 20));
+  scratch.write("coarse.asc",
+                "ncols 4\nnrows 2\nxllcorner -1000\nyllcorner -1000\ncellsize 1000\n"
+                "100 100 100 100\n100 100 100 100\n");
   const auto ask_about = [&](const char* file, std::array<double, 2> origin,
                              double height = 100.0) {
     FlowConfig c = flow_config();
@@ -391,6 +397,11 @@ TEST_CASE("Terrain lies under the dam and has heights there") {
   CHECK_THAT(ask_about("level.asc", {500600.0, 7000100.0}).warnings, Contains("ends 290 m"));
   CHECK_THAT(ask_about("level.asc", there, 50.0).errors, Contains("below the terrain"));
   CHECK_THAT(ask_about("level.asc", there, 150.0).warnings, Contains("`level`"));
+  CHECK_THAT(ask_about("level.asc", there, 112.0).warnings, Contains("as all of the soil by"));
+  CHECK_THAT(ask_about("level.asc", {1e300, 0.0}).errors, Contains("lies 1e+300 m east"));
+  CHECK_THAT(ask_about("cliff.asc", there).warnings, Contains("hangs") && Contains("at x = "));
+  CHECK_THAT(ask_about("coarse.asc", {0.0, 0.0}).warnings, Contains("a height every 1000 m only"));
+  CHECK_THROWS_WITH(ask_about("cut.asc", there), Contains("ground.terrain.file: cut.asc"));
   CHECK_THAT(ask_about("gap.asc", {500250.0, 7000100.0}).errors,
              Contains("the terrain has no height"));
   CHECK_THAT(ask_about("gap.asc", {500400.0, 7000100.0}).warnings, Contains("60 of 3000 heights"));
@@ -398,6 +409,20 @@ TEST_CASE("Terrain lies under the dam and has heights there") {
              Contains("30 of 3000 heights of marks.asc are 0 m, 94 m below all others"));
   CHECK_THAT(ask_about("step.asc", there).warnings,
              Contains("are 0 m, 100 m below") && !Contains("above all others"));
+}
+
+TEST_CASE("The ground of a valley is told once, and its walls stand apart") {
+  const Scratch scratch;
+  scratch.write("level.asc",
+                "ncols 2\nnrows 2\nxllcorner -1000\nyllcorner -1000\ncellsize 5000\n0 0\n0 0\n");
+  FlowConfig both = flow_config();
+  both.extrude = ExtrudeSettings{.width = 1.0};
+  both.ground.surface = {{0.0, -5.0}};
+  both.ground.terrain = TerrainSettings{{scratch / "level.asc"}, {0.0, 0.0}, 0.0, 0.0};
+  Findings found;
+  check_terrain(both, soil_of(dam(), map_config(), kSoils), found);
+  CHECK_THAT(answer(found).errors, Contains("ground.surface: and ground.terrain are both given"));
+  CHECK_THAT(answer(found).warnings, Contains("extrude.width: 1 m is less than a cell of 1.25 m"));
 }
 
 TEST_CASE("Every element of a transfer has a material, and soil that liquefies a law for it") {

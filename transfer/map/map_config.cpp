@@ -1,6 +1,9 @@
 #include "transfer/map/map_config.hpp"
 
+#include "constitutive/left_to_points.hpp"
+
 #include <set>
+#include <variant>
 
 namespace flowslide {
 namespace {
@@ -115,7 +118,15 @@ void check(const MapConfig& c) {
           "map: the material '{}' of the section becomes two (an element has one material); the "
           "second is '{}'",
           source, name);
-    make_material(m.law, name);
+    std::visit(
+        [&]<class M>(const Material<M>& law) {
+          const std::string_view missing = left_to_points<M>(M::initial_state(law.params));
+          validate(missing.empty(),
+                   "materials.{}.{}: '{}' is missing (points bring it of soil that has liquefied "
+                   "only) give it",
+                   name, M::name, missing);
+        },
+        make_material(m.law, name));
     validate(
         !m.liquefied || !(m.liquefied->strength || m.liquefied->soft_strength),
         "map: materials.{}.liquefied gives {} (it would change nothing: every point has the S_r "

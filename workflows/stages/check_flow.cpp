@@ -69,43 +69,6 @@ void check_absorbing(const FlowConfig& flow, const Soil& soil, Findings& found) 
   refuse_if("bottom", a.bottom, [&](const Vec2& c) { return c[1] < *a.bottom; });
 }
 
-/// Soil with neither soil nor ground below it: ground drawn too low, or a step short of the toe.
-void check_hanging(const FlowConfig& flow, const Soil& soil, Findings& found) {
-  if (!(soil.largest > 0.0)) return;
-  const double width = std::max(2.0 * std::sqrt(soil.largest), 2.0 * flow.cell);
-  std::map<std::int64_t, Vec2> lowest;  // of each strip
-  for (const Vec2& c : soil.feet) {
-    const auto strip = static_cast<std::int64_t>(std::floor((c[0] - soil.all.left) / width));
-    const auto at = lowest.try_emplace(strip, c).first;
-    if (c[1] < at->second[1]) at->second = c;
-  }
-  double most = 0.0, least = std::numeric_limits<double>::infinity();
-  Vec2 where{};
-  for (const auto& [strip, c] : lowest) {
-    const double above = c[1] - ground_height(flow.ground.surface, c[0]);
-    least = std::min(least, above);
-    if (above > most) {
-      most = above;
-      where = c;
-    }
-  }
-  // What falls less than a cell meets the ground at once: its points feel it from there on.
-  if (!(most > flow.cell)) return;
-  warn(found,
-       "ground.surface: the lowest soil at x = {:.6g} m, y = {:.6g} m hangs {:.3g} m above it, and "
-       "will fall before it flows. {}",
-       where[0], where[1], most,
-       least > flow.cell
-           ? fmt::format(
-                 "All of the soil hangs by {:.3g} m or more: is the ground the bottom of the "
-                 "box of the transfer?",
-                 least)
-           : fmt::format(
-                 "Draw the ground along the bottom of the soil, and a step of it at the end, "
-                 "x = {:.6g} m.",
-                 soil.all.right));
-}
-
 /// Ground that a flow cannot climb, near the toe.
 void check_rise(const FlowConfig& flow, const Soil& soil, Findings& found) {
   const Extent& e = soil.counted;
@@ -294,8 +257,44 @@ void check_ground(const FlowConfig& flow, const Soil& soil, Findings& found) {
            "ground.surface: soil at ({:.6g}, {:.6g}) m lies {:.3g} m below it (it would be thrown "
            "out) lower the surface or raise the box of the transfer",
            where[0], where[1], deepest);
-  check_hanging(flow, soil, found);
+  check_hanging(
+      "ground.surface", [&](double x) { return ground_height(flow.ground.surface, x); }, flow, soil,
+      fmt::format("Draw it along the bottom of the soil, and a step at the end, x = {:.6g} m.",
+                  soil.all.right),
+      found);
   check_rise(flow, soil, found);
+}
+
+void check_hanging(const std::string& setting, const std::function<double(double)>& height,
+                   const FlowConfig& flow, const Soil& soil, const std::string& hint,
+                   Findings& found) {
+  if (!(soil.largest > 0.0)) return;
+  const double element = std::sqrt(soil.largest), width = 2.0 * std::max(element, flow.cell);
+  std::map<std::int64_t, Vec2> lowest;  // of each strip
+  for (const Vec2& c : soil.feet) {
+    const auto strip = static_cast<std::int64_t>(std::floor((c[0] - soil.all.left) / width));
+    const auto at = lowest.try_emplace(strip, c).first;
+    if (c[1] < at->second[1]) at->second = c;
+  }
+  double most = 0.0, least = std::numeric_limits<double>::infinity();
+  Vec2 where{};
+  for (const auto& [strip, c] : lowest) {
+    const double above = c[1] - height(c[0]);
+    if (std::isnan(above)) continue;  // no height there
+    least = std::min(least, above);
+    if (above > most) {
+      most = above;
+      where = c;
+    }
+  }
+  // What falls less than a cell meets the ground at once: its points feel it from there on.
+  const double free = std::max(flow.cell, element);
+  if (most > free)
+    warn(found,
+         "{}: the lowest soil at x = {:.6g} m, y = {:.6g} m hangs {:.3g} m above it, and will fall "
+         "before it flows{}. {}",
+         setting, where[0], where[1], most,
+         least > free ? fmt::format(", as all of the soil by {:.3g} m or more", least) : "", hint);
 }
 
 }  // namespace flowslide

@@ -32,13 +32,17 @@ Beyond beyond(const mpm::HeightField& f, double x, double y) {
           out(north, f.corner[1], f.corner[1] + (f.rows - 1) * f.spacing)};
 }
 
+/// Whole metres, as far as a number has so many.
+std::string metres(double length) {
+  return length < 1e9 ? fmt::format("{:.0f} m", length) : fmt::format("{:.3g} m", length);
+}
+
 /// "512276 m west and 30 m south of"
 std::string direction(const Beyond& b) {
   std::vector<std::string> parts;
-  if (b.east != 0.0)
-    parts.push_back(fmt::format("{:.0f} m {}", std::abs(b.east), b.east < 0 ? "west" : "east"));
+  if (b.east != 0.0) parts.push_back(metres(std::abs(b.east)) + (b.east < 0 ? " west" : " east"));
   if (b.north != 0.0)
-    parts.push_back(fmt::format("{:.0f} m {}", std::abs(b.north), b.north < 0 ? "south" : "north"));
+    parts.push_back(metres(std::abs(b.north)) + (b.north < 0 ? " south" : " north"));
   return fmt::format("{} of", fmt::join(parts, " and "));
 }
 
@@ -66,7 +70,6 @@ bool check_cover(const mpm::HeightField& f, const Extent& e, double width, Findi
 
 void check_heights(const mpm::HeightField& f, const FlowConfig& flow, const Soil& soil,
                    double width, Findings& found) {
-  double lowest = std::numeric_limits<double>::infinity();
   for (const Vec2& c : soil.centres) {
     for (const double y : {0.25 * width, 0.5 * width, 0.75 * width}) {
       const double above = c[1] - f.at(c[0], y);
@@ -85,14 +88,11 @@ void check_heights(const mpm::HeightField& f, const FlowConfig& flow, const Soil
             c[0], c[1], -above));
         return;
       }
-      lowest = std::min(lowest, above);
     }
   }
-  if (lowest - 2.0 * flow.cell > 0.5 * soil.all.height())
-    found.warnings.push_back(fmt::format(
-        "ground.terrain: the lowest soil hangs about {:.3g} m above the terrain and will fall "
-        "before it flows. Is `level` right?",
-        lowest));
+  check_hanging(
+      "ground.terrain", [&](double x) { return f.at(x, 0.5 * width); }, flow, soil,
+      "Is `level` right, and the place on the map?", found);
 }
 
 /// One height far below or above all others, which marks of missing data are: 0 among hundreds.
@@ -123,14 +123,28 @@ void check_marks(const mpm::HeightField& f, Findings& found) {
 }  // namespace
 
 void check_terrain(const FlowConfig& flow, const Soil& soil, Findings& found) {
+  if (flow.extrude && flow.extrude->width < flow.cell)
+    found.warnings.push_back(fmt::format(
+        "extrude.width: {:g} m is less than a cell of {:g} m: the walls of both sides hold the "
+        "same nodes. Take a wider valley, or smaller cells.",
+        flow.extrude->width, flow.cell));
   if (!flow.ground.terrain) return;
+  if (flow.ground.surface != GroundSettings{}.surface)
+    found.errors.emplace_back(
+        "ground.surface: and ground.terrain are both given (the ground is one of them) remove one");
   if (!flow.extrude)
     found.errors.emplace_back(
         "ground.terrain: is a surface in three dimensions, but there is no `extrude` (a run in "
         "plane "
         "strain has no use for it) give ground.surface, or extrude");
   const TerrainSettings& t = *flow.ground.terrain;
-  const mpm::HeightField f = mpm::read_height_field(t.file.path, {t.origin, t.heading, t.level});
+  const mpm::HeightField f = [&] {
+    try {
+      return mpm::read_height_field(t.file.path, {t.origin, t.heading, t.level});
+    } catch (const InputError& e) {
+      throw InputError(fmt::format("ground.terrain.file: {}", e.what()));
+    }
+  }();
   const auto missing =
       std::count_if(f.height.begin(), f.height.end(), [](double h) { return std::isnan(h); });
   if (missing > 0)
@@ -142,6 +156,11 @@ void check_terrain(const FlowConfig& flow, const Soil& soil, Findings& found) {
   const double width = flow.extrude->width;
   if (!check_cover(f, soil.all, width, found)) return;
   check_heights(f, flow, soil, width, found);
+  if (f.spacing > 3.0 * soil.all.height())
+    found.warnings.push_back(fmt::format(
+        "ground.terrain: {} has a height every {:g} m only, and the dam is {:.3g} m high: between "
+        "them the ground is straight. Take a finer map.",
+        f.source, f.spacing, soil.all.height()));
   // Runouts of ten heights are common; beyond its edges the terrain goes on level.
   const double reach = 10.0 * soil.all.height();
   for (double x = soil.all.right; x < soil.all.right + reach; x += f.spacing)

@@ -10,6 +10,7 @@
 #include "transfer/zone/zone_config.hpp"
 #include "workflows/engine/stage.hpp"
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -69,6 +70,11 @@ void check_scheme(const FlowConfig& flow, const Soil& soil, Findings& found);
 /// The length for which softening strains hold, where soil of the transfer softens.
 void check_softening(const FlowConfig& flow, const MapConfig& map, const Soil& soil,
                      Findings& found);
+/// Soil that hangs above the ground: all of it, or a part that has no soil below it either.
+/// `height` is that of the ground at x [m], `setting` what gives it, `hint` where to look.
+void check_hanging(const std::string& setting, const std::function<double(double)>& height,
+                   const FlowConfig& flow, const Soil& soil, const std::string& hint,
+                   Findings& found);
 /// Opens the terrain file.
 void check_terrain(const FlowConfig& flow, const Soil& soil, Findings& found);
 
