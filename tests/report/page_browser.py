@@ -98,6 +98,31 @@ def check_player(page):
     expect(f"a point tells its values ({tip})", "displacement" in tip)
 
 
+def check_windows(page):
+    """By the function itself: nothing of the page reaches its names."""
+    code = pathlib.Path(__file__).parents[2].joinpath("report/page/windows.js").read_text()
+
+    def bottom(ground, ys):
+        found = page.run("""(() => { %s
+            const found = sectionWindows(
+              { materials: [{ counts: true }], moved_m: 1, toe_m: 10, ground: %s },
+              { count: 2, frames: 3, x0: [0, 5], y0: [0, 10], xs: [0, 5, 0, 30, 0, 50], ys: %s,
+                material: [0, 0] });
+            return [found.range[0], found.damRange[0]]; })()""" % (code, ground, ys))
+        expect(f"the section alone is framed as ever ({found[1]})", abs(found[1] + 0.8) < 1e-9)
+        return found[0]
+
+    expect("a flow on level ground is framed as the section",
+           abs(bottom("[]", [0, 10, 0, 5, 0, 2]) + 0.8) < 1e-9)
+    expect("one that falls is seen whole, at every time",
+           abs(bottom("[]", [0, 10, 0, -30, 0, -20]) + 30.8) < 1e-9)
+    # The ground falls from 0 at x = 0 to -100 at x = 100, and the points end at x = 50.
+    expect("and the ground under it",
+           abs(bottom("[[0, 0], [100, -100]]", [0, 10, 0, 5, 0, 2]) + 50.8) < 1e-9)
+    expect("which goes on level beyond its ends",
+           abs(bottom("[[20, -3], [40, -7]]", [0, 10, 0, 5, 0, 2]) + 7.8) < 1e-9)
+
+
 HIDE = "document.styleSheets[0].insertRule('%s { visibility: hidden; }')"
 SEEN = {"flow": "#player canvas", "section": "#section canvas", "runout": ".panel svg.chart"}
 
@@ -141,6 +166,7 @@ def main(program, pictures=None, write=None):
             page.open(path, 1280)
             check_charts(page)
             check_player(page)
+            check_windows(page)
             expect("the console is silent, and nothing is loaded: " + "; ".join(page.said),
                    not page.said)
             # Control: a script that is not the page's own does not run, and the console tells.
