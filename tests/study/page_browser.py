@@ -90,6 +90,30 @@ def check_section(page):
     expect(f"a run tells its runout ({tip!r})", "factor" in tip and f"{told:.1f}" in tip)
 
 
+def check_ground(page):
+    """Rigid ground from 0 at x = 0 to -10 at x = 100, seen from x = 20 to 60 and to 140."""
+    code = pathlib.Path(__file__).parents[2].joinpath("study/page/scripts/section.js").read_text()
+
+    def ends(right):
+        # 10 pixels a metre across and up, as fit() gives for that width; y counts from 0 down.
+        return page.run("""(() => {
+            const extent = (v) => [Math.min(...v), Math.max(...v)],
+              draw = (name, attributes) => attributes,
+              materialColours = (soils) => soils;
+            %s
+            const d = new SectionDrawing({ soils: [{ rings: [[[20, 0], [60, 0], [60, -5]]] }],
+              water: [], ground: [[0, 0], [100, -10]] }, %g);
+            d.fit(0, 10 * (%g - 20), 0);
+            const edge = d.ground()[1].d.slice(1).split("L").map((xy) => xy.split(" ").map(Number));
+            const up = (p) => -p[1] / (10 * d.larger);
+            return [up(edge[0]), up(edge[edge.length - 1])]; })()""" % (code, right, right))
+
+    for right, low in ((60, -6), (140, -10)):
+        left_end, right_end = ends(right)
+        expect(f"ground at the edges is as high as there ({left_end:.2f}, {right_end:.2f})",
+               abs(left_end + 2) < 0.02 and abs(right_end - low) < 0.02)
+
+
 def check_strands(page):
     """The histories of 18 rows with pages, of two kinds that end after 20 and 40 s."""
     page.wait("document.querySelector('#strands path.strand') !== null")
@@ -441,6 +465,7 @@ def main(test_study, test_report, pictures=None, write=None):
             check_touch(page)
             page.open(folder / "study.html", 1280)
             check_section(page)
+            check_ground(page)
             check_strands(page)
             check_explorer(page)
             check_choices(page)
