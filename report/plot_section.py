@@ -95,7 +95,33 @@ def colour_bar(figure, mappable, axes, label, **options):
     box = ((WIDTH - 0.72) / WIDTH, middle - 0.5 * size, 0.11 / WIDTH, size)
     bar = figure.colorbar(mappable, cax=figure.add_axes(box), label=label, **options)
     bar.outline.set_linewidth(0.4)
+    fit_label(figure, bar.ax)
     return bar
+
+
+def fit_label(figure, ax):
+    """Breaks the label of the bar of a flat section, moves it, and makes it smaller if it must, so
+    that the edge of the figure cuts nothing off."""
+    label, renderer = ax.yaxis.label, figure.canvas.get_renderer()
+
+    def overhang():
+        """Of its lower, upper and right end [pixels]; the label gets its place with the ticks."""
+        ax.yaxis.get_tightbbox(renderer)
+        box = label.get_window_extent(renderer)
+        return -box.y0, box.y1 - figure.bbox.y1, box.x1 - figure.bbox.x1
+
+    below, above, _ = overhang()
+    text = label.get_text()
+    if below + above > 0 and " " in text:
+        spaces = [k for k, character in enumerate(text) if character == " "]
+        middle = min(spaces, key=lambda k: abs(k - len(text) / 2))
+        label.set_text(text[:middle] + "\n" + text[middle + 1:])
+    while sum(overhang()[:2]) > 0 or overhang()[2] > 0:
+        if label.get_fontsize() <= 4:
+            break
+        label.set_fontsize(label.get_fontsize() - 0.5)
+    below, above, _ = overhang()
+    label.set_y(label.get_position()[1] + (max(below, 0) - max(above, 0)) / ax.bbox.height)
 
 
 def draw_points(ax, section, chosen, **colour):

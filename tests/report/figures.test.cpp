@@ -34,6 +34,20 @@ void write_case(const Scratch& scratch, bool shaken, const dam_case::Flow& moves
   std::ofstream(out / "zone.csv") << zone_csv(zone.history);
 }
 
+/// What a few lines of Python print that use the scripts of the figures.
+std::string answer_of(const Scratch& scratch, const std::string& lines) {
+  std::filesystem::create_directories(scratch / "plot");
+  write_plot_scripts(scratch / "plot");
+  scratch.write("plot/ask.py", "import pathlib\n" + lines);
+  const std::string command =
+      "cd '" + scratch.path().string() +
+      "' && { python3 plot/ask.py || /usr/bin/python3 plot/ask.py; } 2>log >out";
+  const int status = std::system(command.c_str());
+  INFO(read_text_file(scratch / "log"));
+  REQUIRE(status == 0);
+  return read_text_file(scratch / "out");
+}
+
 /// Width and height from the header of a PNG; zeros if it is none.
 std::pair<unsigned, unsigned> png_size(const std::filesystem::path& path) {
   const std::string bytes = read_text_file(path);
@@ -163,19 +177,11 @@ TEST_CASE("A flow down a falling valley lies within the figures, and so does the
     CAPTURE(fall);
     const Scratch scratch;
     write_case(scratch, false, {.fall = fall}, fall > 0.0 ? ground : std::vector<ToldStage>{});
-    std::filesystem::create_directories(scratch / "plot");
-    write_plot_scripts(scratch / "plot");
-    scratch.write("plot/windows.py",
-                  "import pathlib\nfrom plot_section import Section\n"
+    std::istringstream out(
+        answer_of(scratch,
+                  "from plot_section import Section\n"
                   "s = Section(pathlib.Path('report/data'))\n"
-                  "print(s.ylim[0], s.points['y'].min(), s.points['x'].max(), s.dam_ylim[0])\n");
-    const std::string command = "cd '" + scratch.path().string() +
-                                "' && { python3 plot/windows.py || /usr/bin/python3 "
-                                "plot/windows.py; } 2>log >out";
-    const int status = std::system(command.c_str());
-    INFO(read_text_file(scratch / "log"));
-    REQUIRE(status == 0);
-    std::istringstream out(read_text_file(scratch / "out"));
+                  "print(s.ylim[0], s.points['y'].min(), s.points['x'].max(), s.dam_ylim[0])\n"));
     double bottom = 0.0, lowest = 0.0, far = 0.0, dam_bottom = 0.0;
     out >> bottom >> lowest >> far >> dam_bottom;
     CHECK(far > 150.0);
@@ -187,6 +193,31 @@ TEST_CASE("A flow down a falling valley lies within the figures, and so does the
     } else {
       CHECK(bottom == dam_bottom);  // control: nothing is lower than the section
     }
+  }
+}
+
+TEST_CASE("The label of a colour bar is not cut, however flat the section") {
+  const Scratch scratch;
+  // Height of a section that is 1000 m long, and the overhang of the label over the figure.
+  for (const int height : {20, 60, 120, 500}) {
+    CAPTURE(height);
+    std::istringstream out(answer_of(
+        scratch,
+        fmt::format("import plot_style\nfrom matplotlib.cm import ScalarMappable\n"
+                    "from plot_section import stacked, colour_bar\n"
+                    "figure, axes = stacked([('Whole flow', (0, 1000))], (0, {}), bar=0.85)\n"
+                    "label = 'strength / strength at transfer'\n"
+                    "bar = colour_bar(figure, ScalarMappable(cmap='cividis'), axes, label)\n"
+                    "figure.canvas.draw()\n"
+                    "text = bar.ax.yaxis.label\n"
+                    "box, edge = text.get_window_extent(), figure.bbox\n"
+                    "print(min(box.y0, edge.y1 - box.y1, edge.x1 - box.x1), text.get_fontsize())\n"
+                    "assert text.get_text().replace(chr(10), ' ') == label\n",
+                    height)));
+    double room = 0.0, size = 0.0;
+    out >> room >> size;
+    CHECK(room > -0.5);  // pixels of 1/100 inch
+    CHECK(size > 5.0);   // it can still be read
   }
 }
 

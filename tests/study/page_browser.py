@@ -164,6 +164,22 @@ def check_explorer(page):
     page.run("document.querySelector('.choices input').click()")
 
 
+def check_zero(page):
+    """What holds values that are all 0 begins there."""
+    code = pathlib.Path(__file__).parents[2].joinpath("study/page/scripts/scatter.js").read_text()
+
+    def around(values):
+        return page.run("""(() => {
+            const extent = (v) => [Math.min(...v), Math.max(...v)];
+            %s
+            return Scatter.prototype.around(%s, (v) => [v, 0]); })()""" % (code, values))
+
+    low, high = around([0, 0])
+    expect(f"runouts of 0 are seen from 0 on ({low}, {high})", low == 0 and high > 0)
+    expect("control: others have room on both sides", around([-1, -1])[0] < -1 < around([-1, -1])[1]
+           and around([3, 3])[0] < 3)
+
+
 def check_choices(page):
     choose(page, "x", "factor")
     choose(page, "y", "sum")
@@ -458,6 +474,11 @@ def main(test_study, test_report, pictures=None, write=None):
                        page.run("document.documentElement.dataset.ready") == "yes")
                 expect(f"{name}: nothing is wider than the page", page.run(
                     "document.documentElement.scrollWidth <= innerWidth"))
+                over = page.run("""(() => { const nav = document.querySelector('nav'),
+                    edge = nav.getBoundingClientRect().right;
+                    return Math.max(...[...nav.querySelectorAll('a, button')].map(
+                        (e) => e.getBoundingClientRect().right - edge)); })()""")
+                expect(f"{name}: the menu is not cut off ({over:.0f})", phone or over <= 0)
                 if pictures:
                     page.picture(pathlib.Path(pictures, f"study-{name}.png"))
             look(page, folder, write == "--write")
@@ -468,6 +489,7 @@ def main(test_study, test_report, pictures=None, write=None):
             check_ground(page)
             check_strands(page)
             check_explorer(page)
+            check_zero(page)
             check_choices(page)
             check_zoom(page)
             check_saving(page)
