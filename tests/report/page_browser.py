@@ -98,6 +98,20 @@ def check_player(page):
     expect(f"a point tells its values ({tip})", "displacement" in tip)
 
 
+def check_menu(page):
+    """Its entries and buttons lie within it, and a chapter that it leads to is not below it."""
+    over = page.run("""(() => { const nav = document.querySelector('nav'),
+        within = nav.getBoundingClientRect();
+        return Math.max(...[...nav.querySelectorAll('a, button')].map(
+            (e) => e.getBoundingClientRect().right - within.right)); })()""")
+    expect(f"the menu is not cut off ({over:.0f})", over <= 0)
+    place = page.run("""(() => { document.documentElement.style.scrollBehavior = 'auto';
+        document.querySelector('nav a[href="#key-numbers"]').click();
+        const top = (s) => document.querySelector(s).getBoundingClientRect();
+        return top('#key-numbers h2, #key-numbers').top - top('nav').bottom; })()""")
+    expect(f"and covers no heading ({place:.0f})", place >= 0)
+
+
 def check_windows(page):
     """By the function itself: nothing of the page reaches its names."""
     code = pathlib.Path(__file__).parents[2].joinpath("report/page/windows.js").read_text()
@@ -160,6 +174,8 @@ def main(program, pictures=None, write=None):
                 expect(f"{name}: numbers are unpacked",
                        page.run("document.documentElement.dataset.ready") == "yes")
                 check_text(page)
+                if not phone:
+                    check_menu(page)
                 if pictures:
                     page.picture(pathlib.Path(pictures, f"{name}.png"))
             look(page, path, write == "--write")
