@@ -194,6 +194,7 @@ ReportFacts compute_facts(const LiquefactionZone& zone, const MpmHistory& flow,
   add_rest(f, samples, flow.rest());
   f.composition = composition(p, end, f.toe);
   f.outcome = outcome_facts(p, end, config);
+  warn_without_failure(f, zone, config);
   add_warnings(f, p, end, samples, flow.rest(), config);
   return f;
 }

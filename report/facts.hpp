@@ -86,6 +86,10 @@ void add_warnings(ReportFacts& facts, const ParticleSet& initial, const FinalSta
 /// mass_error, ... A number that is unset becomes null.
 std::string to_json(const ReportFacts& facts);
 
+/// Adds a warning if no failure was found in the shaking, and soil flows nevertheless.
+void warn_without_failure(ReportFacts& facts, const LiquefactionZone& zone,
+                          const ReportConfig& config);
+
 /// Speed of the front between consecutive samples [m/s], one per sample, 0 for the first.
 std::vector<double> front_speed(const std::vector<MpmSample>& samples);
 

@@ -49,6 +49,22 @@ void warn_about_upstream_end(ReportFacts& f, const ParticleSet& p, const FinalSt
 
 }  // namespace
 
+void warn_without_failure(ReportFacts& f, const LiquefactionZone& zone,
+                          const ReportConfig& config) {
+  if (!zone.withstood() || !(f.outcome.largest.flow > config.moved)) return;
+  const CrestFacts& crest = f.outcome.crest;
+  const std::string moved =
+      is_set(crest.level)
+          ? fmt::format("; its crest moved {:.2f} m outward and settled {:.2f} m until then",
+                        crest.outward.shaking, crest.settlement.shaking)
+          : "";
+  f.warnings.push_back(fmt::format(
+      "No failure was found in the shaking: the section withstood it to the end of the record, t = "
+      "{:.4g} s{}. What flows does so by the residual strengths alone, which the soil is given at "
+      "the transfer.",
+      zone.transfer_time, moved));
+}
+
 void add_warnings(ReportFacts& f, const ParticleSet& p, const FinalState& end,
                   const std::vector<MpmSample>& samples, const RestRule& rest,
                   const ReportConfig& config) {

@@ -29,6 +29,9 @@ constexpr std::array kConsequences{
                 "The runout hangs on elastic constants and on the cells: compare it with smaller "
                 "cells before using it."},
     Consequence{"that of the model, and may be larger", "The runout is a lower bound."},
+    Consequence{"No failure was found in the shaking",
+                "The runout is what the residual strengths let flow: the shaking by itself moved "
+                "the dam no farther than its crest says, and the strengths decide."},
     Consequence{"The run was stopped before rest", "The runout is a lower bound."},
     Consequence{"Do not use the runout before the cause", "The runout says nothing yet."},
     Consequence{"left the model through its outlet",

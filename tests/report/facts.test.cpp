@@ -110,6 +110,29 @@ TEST_CASE("Warns of a run that was stopped, of balances and of an unknown toe") 
   CHECK(still.facts.failed_volume > 0.0);
 }
 
+TEST_CASE("A flow after a shaking without failure is told to come from the residual strengths") {
+  Scratch scratch;
+  ParticleSet p = dam_case::particles();
+  for (auto& u : p.displacement) u = {0.17, -0.03, 0.0};
+  LiquefactionZone zone = dam_case::zone(dam_case::mesh(), true);
+  const auto warned = [&](double front) {
+    dam_case::write_flow(scratch / "mpm.h5", p, {.front = front});
+    const MpmHistory history(scratch / "mpm.h5");
+    const ReportFacts f = compute_facts(zone, history, final_state(p, history, {}), {});
+    return f.warnings.empty() ? std::string() : f.warnings.front();
+  };
+  CHECK(warned(200.0).find("No failure") == std::string::npos);  // control: it failed
+  zone.transfer_reason = std::string(kNoFailure) + ", so the end of the record is taken";
+  CHECK_THAT(warned(200.0),
+             Catch::Matchers::Contains("No failure was found in the shaking") &&
+                 Catch::Matchers::Contains("to the end of the record, t = 2 s") &&
+                 Catch::Matchers::Contains("its crest moved 0.17 m outward and settled 0.03 m") &&
+                 Catch::Matchers::Contains("by the residual strengths alone"));
+  CHECK(warned(40.0).find("No failure") == std::string::npos);  // control: nothing flows
+  zone.transfer_frame = -1;                                     // control: it was not shaken
+  CHECK(warned(200.0).find("No failure") == std::string::npos);
+}
+
 TEST_CASE("Warns if the failure reaches the upstream end") {
   Case c({});
   CHECK_FALSE(c.warns_of("upstream end"));
