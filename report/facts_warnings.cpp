@@ -1,3 +1,4 @@
+#include "model/front.hpp"
 #include "report/facts.hpp"
 
 #include <algorithm>
@@ -47,6 +48,48 @@ void warn_about_upstream_end(ReportFacts& f, const ParticleSet& p, const FinalSt
         left));
 }
 
+/// x of the kFrontRank-th point from the left, of those that count.
+double left_front(const std::vector<std::array<double, 3>>& at, const FinalState& end) {
+  std::vector<double> x;
+  for (std::size_t i = 0; i < at.size(); ++i)
+    if (end.counts[i]) x.push_back(at[i][0]);
+  if (x.empty()) return kUnset;
+  const auto front = x.begin() + std::min(std::ssize(x), std::ptrdiff_t{kFrontRank}) - 1;
+  std::nth_element(x.begin(), front, x.end());
+  return *front;
+}
+
+/// A section with two slopes may fail to the side on which no runout is counted.
+void warn_about_other_side(ReportFacts& f, const ParticleSet& p, const FinalState& end,
+                           const ReportConfig& config) {
+  constexpr double share_told = 0.1;
+  constexpr double cell = 2.0;  // spacings of points, as points_per_cell has them
+  double moved = 0.0, left = 0.0, volume = 0.0;
+  std::size_t counted = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (!end.counts[i]) continue;
+    volume += p.volume[i];
+    ++counted;
+    if (!end.failed[i]) continue;
+    moved += p.mass[i];
+    if (end.position[i][0] < end.undeformed[i][0] - config.moved) left += p.mass[i];
+  }
+  if (counted == 0) return;
+  const double from = left_front(end.undeformed, end), to = left_front(end.position, end);
+  const double told = std::max(1.0, cell * std::sqrt(volume / static_cast<double>(counted)));
+  const bool passes = from - to > told;
+  if (!passes && !(left > share_told * moved)) return;
+  const std::string way =
+      passes ? fmt::format("its front there passed {:.1f} m, from x = {:.1f} m to {:.1f} m",
+                           from - to, from, to)
+             : "it stayed within the section there";
+  f.warnings.push_back(fmt::format(
+      "Soil went to the left as well: {}, and {:.0f} % of the mass that moved by more than {:g} m "
+      "moved that way. The runout counts to the right only: mirror the section to have that of the "
+      "left.",
+      way, moved > 0.0 ? 100.0 * left / moved : 0.0, config.moved));
+}
+
 }  // namespace
 
 void warn_without_failure(ReportFacts& f, const LiquefactionZone& zone,
@@ -91,6 +134,7 @@ void add_warnings(ReportFacts& f, const ParticleSet& p, const FinalState& end,
     f.warnings.emplace_back(
         "No soil that counts has a downstream end, so the report has no runout. Give `toe`.");
   warn_about_upstream_end(f, p, end);
+  warn_about_other_side(f, p, end, config);
 }
 
 }  // namespace flowslide

@@ -41,6 +41,8 @@ constexpr std::array kConsequences{
                 "by the runout without the thin tip."},
     Consequence{"The failure reaches the upstream end of the model",
                 "More soil may flow than the model has: the runout may be too small."},
+    Consequence{"The runout counts to the right only",
+                "What ran out to the left is not in it: a run of the mirrored section has that."},
     Consequence{"This report uses the frame",
                 "The runout is uncertain by the difference between the two."},
     Consequence{"No soil that counts has a downstream end", "These rows have no runout."},

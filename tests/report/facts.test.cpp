@@ -133,6 +133,42 @@ TEST_CASE("A flow after a shaking without failure is told to come from the resid
   CHECK(warned(200.0).find("No failure") == std::string::npos);
 }
 
+TEST_CASE("Warns of soil that leaves to the left, where no runout is counted") {
+  // A row of 100 points of 1 m, of which the first `left` move by `by` to the left and the others
+  // by 3 m to the right.
+  const auto warned = [](std::size_t left, double by) {
+    ParticleSet p;
+    resize(p, 100);
+    p.volume.assign(100, 1.0);
+    p.mass.assign(100, 2000.0);
+    FinalState end;
+    for (std::size_t i = 0; i < 100; ++i) {
+      p.position[i] = {static_cast<double>(i), 0.0, 0.0};
+      end.undeformed.push_back(p.position[i]);
+      end.position.push_back(p.position[i]);
+      end.position[i][0] += i < left ? -by : 3.0;
+      end.displacement.push_back(i < left ? by : 3.0);
+      end.counts.push_back(1);
+      end.failed.push_back(end.displacement[i] > 1.0);
+    }
+    ReportFacts f;
+    add_warnings(f, p, end, std::vector<MpmSample>(1), {}, {});
+    std::string all;
+    for (const std::string& w : f.warnings)
+      if (w.find("to the left") != std::string::npos) all += w;
+    return all;
+  };
+  CHECK_THAT(warned(20, 8.0), Catch::Matchers::Contains("passed 8.0 m, from x = 4.0 m to -4.0 m") &&
+                                  Catch::Matchers::Contains("20 % of the mass that moved") &&
+                                  Catch::Matchers::Contains("counts to the right only"));
+  // Less than a tenth, but it leaves; more than a tenth that goes less than a cell.
+  CHECK_THAT(warned(8, 8.0), Catch::Matchers::Contains("8 % of the mass that moved"));
+  CHECK_THAT(warned(20, 1.5), Catch::Matchers::Contains("it stayed within the section there"));
+  CHECK(warned(8, 1.5).empty());
+  CHECK(warned(20, 0.5).empty());  // control: what moves by 1 m at most has not failed
+  CHECK(warned(0, 0.0).empty());
+}
+
 TEST_CASE("Warns if the failure reaches the upstream end") {
   Case c({});
   CHECK_FALSE(c.warns_of("upstream end"));
