@@ -21,6 +21,23 @@ void warn_about_balances(ReportFacts& f, const ReportConfig& c) {
   warn("momentum", f.momentum_error, c.momentum_warning);
 }
 
+/// A run whose front rests has its runout, though soil behind may still move.
+void warn_about_rest(ReportFacts& f, const RestRule& rest) {
+  if (is_set(f.front_at_rest)) return;
+  if (!is_set(f.time_at_rest))
+    f.warnings.push_back(fmt::format(
+        "The run was stopped before rest: after {:.4g} s the kinetic energy was still above {:.2g} "
+        "of its peak and the front was still moving. The final runout is larger; raise `end` of "
+        "the flow stage.",
+        f.duration, rest.kinetic_share));
+  else if (f.front_change > rest.runout_change)
+    f.warnings.push_back(fmt::format(
+        "The run was stopped before rest: the kinetic energy stays below {:.2g} of its peak from "
+        "{:.4g} s on, but the front still moved by {:.2g} m in the last {:g} s. The final runout "
+        "is larger; raise `end` of the flow stage.",
+        rest.kinetic_share, f.time_at_rest, f.front_change, rest.window));
+}
+
 void warn_about_outlet(ReportFacts& f, const ParticleSet& p) {
   if (!(f.points_left > 0.0)) return;
   double mass = 0.0;
@@ -111,12 +128,7 @@ void warn_without_failure(ReportFacts& f, const LiquefactionZone& zone,
 void add_warnings(ReportFacts& f, const ParticleSet& p, const FinalState& end,
                   const std::vector<MpmSample>& samples, const RestRule& rest,
                   const ReportConfig& config) {
-  if (!is_set(f.time_at_rest) && !is_set(f.front_at_rest))
-    f.warnings.push_back(fmt::format(
-        "The run was stopped before rest: after {:.4g} s the kinetic energy was still above {:.2g} "
-        "of its peak and the front was still moving. The final runout is larger; raise `end` of "
-        "the flow stage.",
-        f.duration, rest.kinetic_share));
+  warn_about_rest(f, rest);
   warn_about_balances(f, config);
   warn_about_outlet(f, p);
   const MpmSample& last = samples.back();

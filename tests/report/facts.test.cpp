@@ -1,8 +1,11 @@
 #include "report/facts.hpp"
 
 #include "model/outline.hpp"
+#include "report/markdown_outcome.hpp"
 #include "tests/report/dam_case.hpp"
 #include "tests/support/scratch.hpp"
+
+#include <tuple>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -179,6 +182,66 @@ TEST_CASE("Warns if the failure reaches the upstream end") {
   const MpmHistory history(c.scratch / "mpm.h5");
   add_warnings(c.facts, history.initial(), c.end, history.samples(), history.rest(), c.config);
   CHECK(c.warns_of("upstream end"));
+}
+
+TEST_CASE("A front rests by the rule that ends a run, wherever samples fall in its window") {
+  // Rows every 0.3 s, of which none falls 5 s before the end. The front passes at 1 m/s to x = 10
+  // and creeps on at `creep`; the energy is small from 20 s on.
+  const auto told = [](double creep, double still_for, double small = 1e-9) {
+    const Scratch scratch;
+    ParticleSet p = dam_case::particles();
+    dam_case::write_flow(scratch / "flow.h5", p, {});
+    const MpmHistory flow(scratch / "flow.h5");
+    MpmHistoryWriter out(scratch / "mpm.h5", p,
+                         {.kinetic_share = 1e-3, .runout_change = 0.2, .window = 5.0});
+    for (std::size_t k = 0; k < flow.num_frames(); ++k) out.append(flow.frame(k));
+    for (int k = 0; 0.3 * k <= 30.0 + still_for; ++k) {
+      MpmSample s;
+      s.time = 0.3 * k;
+      s.front = s.time <= 30.0 ? s.time : 30.0 + creep * (s.time - 30.0);
+      s.kinetic = s.time < 20.0 ? 1e6 : 1e6 * small;
+      s.max_speed = 0.57;
+      out.append(s);
+    }
+    out.finish();
+    const MpmHistory history(scratch / "mpm.h5");
+    const ReportFacts f = compute_facts(dam_case::zone(dam_case::mesh(), true), history,
+                                        final_state(p, history, {}), {});
+    std::string warned;
+    for (const std::string& w : f.warnings)
+      if (w.find("before rest") != std::string::npos) warned += w;
+    return std::tuple(f, summary_markdown(f, {}), warned);
+  };
+  using Catch::Matchers::Contains;
+  {  // it stood for 4.8 s and moves 0.1 m before: 0.2 m at most in the 5 s that count
+    const auto [f, words, warned] = told(0.0, 5.0);
+    CHECK(f.front_at_rest == Approx(30.0).margin(0.31));
+    CHECK(f.time_at_rest == Approx(20.1));
+    CHECK_THAT(words, Contains("The front came to rest") && Contains("within 0.2 m since") &&
+                          Contains("the kinetic energy after 20.1 s (below 0.001 of its peak") &&
+                          Contains("fastest point still moved at 0.57 m/s"));
+    CHECK(warned.empty());
+  }
+  {  // creeps by 0.15 m in 5 s: at rest by the rule, and told
+    const auto [f, words, warned] = told(0.03, 20.0);
+    CHECK(is_set(f.front_at_rest));
+    CHECK(f.front_change == Approx(0.15).margin(0.01));
+    CHECK_THAT(words, Contains("the front by 0.14 m in the last 5 s"));
+    CHECK(warned.empty());
+  }
+  {  // creeps by 0.5 m in 5 s: the energy alone does not make rest
+    const auto [f, words, warned] = told(0.1, 20.0);
+    CHECK_FALSE(is_set(f.front_at_rest));
+    CHECK_THAT(words, Contains("**The front had not come to rest when the run ended:** it moved by "
+                               "0.48 m in the last 5 s"));
+    CHECK_THAT(warned, Contains("the front still moved by 0.48 m"));
+  }
+  {  // the front stands while soil behind it moves
+    const auto [f, words, warned] = told(0.0, 20.0, 0.5);
+    CHECK_FALSE(is_set(f.time_at_rest));
+    CHECK_THAT(words, Contains("the kinetic energy was still above 0.001 of its peak"));
+    CHECK(warned.empty());
+  }
 }
 
 TEST_CASE("Refuses particles of another run") {
