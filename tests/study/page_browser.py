@@ -15,6 +15,7 @@ import tempfile
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "report"))
 sys.dont_write_bytecode = True
 from browser import Browser, find_chromium  # noqa: E402
+from page_functions import check_ground, check_zero  # noqa: E402
 from pictures import Pictures  # noqa: E402
 
 DOTS = "document.querySelectorAll('.scatter circle.dot:not(g[transform] circle)')"
@@ -90,30 +91,6 @@ def check_section(page):
     expect(f"a run tells its runout ({tip!r})", "factor" in tip and f"{told:.1f}" in tip)
 
 
-def check_ground(page):
-    """Rigid ground from 0 at x = 0 to -10 at x = 100, seen from x = 20 to 60 and to 140."""
-    code = pathlib.Path(__file__).parents[2].joinpath("study/page/scripts/section.js").read_text()
-
-    def ends(right):
-        # 10 pixels a metre across and up, as fit() gives for that width; y counts from 0 down.
-        return page.run("""(() => {
-            const extent = (v) => [Math.min(...v), Math.max(...v)],
-              draw = (name, attributes) => attributes,
-              materialColours = (soils) => soils;
-            %s
-            const d = new SectionDrawing({ soils: [{ rings: [[[20, 0], [60, 0], [60, -5]]] }],
-              water: [], ground: [[0, 0], [100, -10]] }, %g);
-            d.fit(0, 10 * (%g - 20), 0);
-            const edge = d.ground()[1].d.slice(1).split("L").map((xy) => xy.split(" ").map(Number));
-            const up = (p) => -p[1] / (10 * d.larger);
-            return [up(edge[0]), up(edge[edge.length - 1])]; })()""" % (code, right, right))
-
-    for right, low in ((60, -6), (140, -10)):
-        left_end, right_end = ends(right)
-        expect(f"ground at the edges is as high as there ({left_end:.2f}, {right_end:.2f})",
-               abs(left_end + 2) < 0.02 and abs(right_end - low) < 0.02)
-
-
 def check_strands(page):
     """The histories of 18 rows with pages, of two kinds that end after 20 and 40 s."""
     page.wait("document.querySelector('#strands path.strand') !== null")
@@ -162,22 +139,6 @@ def check_explorer(page):
     expect("or each row is a point", len(dots(page)) == 21)
     expect("without a bar", page.run("document.querySelectorAll('.scatter line.bar').length") == 0)
     page.run("document.querySelector('.choices input').click()")
-
-
-def check_zero(page):
-    """What holds values that are all 0 begins there."""
-    code = pathlib.Path(__file__).parents[2].joinpath("study/page/scripts/scatter.js").read_text()
-
-    def around(values):
-        return page.run("""(() => {
-            const extent = (v) => [Math.min(...v), Math.max(...v)];
-            %s
-            return Scatter.prototype.around(%s, (v) => [v, 0]); })()""" % (code, values))
-
-    low, high = around([0, 0])
-    expect(f"runouts of 0 are seen from 0 on ({low}, {high})", low == 0 and high > 0)
-    expect("control: others have room on both sides", around([-1, -1])[0] < -1 < around([-1, -1])[1]
-           and around([3, 3])[0] < 3)
 
 
 def check_choices(page):
@@ -486,10 +447,10 @@ def main(test_study, test_report, pictures=None, write=None):
             check_touch(page)
             page.open(folder / "study.html", 1280)
             check_section(page)
-            check_ground(page)
+            check_ground(page, expect)
             check_strands(page)
             check_explorer(page)
-            check_zero(page)
+            check_zero(page, expect)
             check_choices(page)
             check_zoom(page)
             check_saving(page)
