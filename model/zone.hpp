@@ -35,6 +35,10 @@ inline std::string window_label(std::string_view name) {
   return std::string(name == kWholeSoil ? "whole soil" : name);
 }
 
+/// How a transfer_reason begins where the rule found no failure in the shaking.
+inline constexpr std::string_view kNoFailure =
+    "the kinetic energy never leaves its pre-failure envelope";
+
 struct LiquefactionZone {
   double transfer_time = 0.0;       ///< [s]; 0 for the gravity state
   int transfer_frame = -1;          ///< index into FemHistory::times(), -1 for the gravity state
@@ -58,6 +62,10 @@ struct LiquefactionZone {
   ZoneHistory history;
   /// Nothing was shaken: what liquefied is as the settings say, not found.
   [[nodiscard]] bool is_assumed() const { return transfer_frame < 0; }
+  /// Shaken to the end of its record, and no failure was found.
+  [[nodiscard]] bool withstood() const {
+    return !is_assumed() && transfer_reason.starts_with(kNoFailure);
+  }
   std::vector<std::string> notes;  ///< clamped values, skipped nodes, one line each
 };
 

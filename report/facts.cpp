@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace flowslide {
 namespace {
@@ -89,8 +90,28 @@ void add_movements(ReportFacts& f, const ParticleSet& p, const FinalState& end,
   }
 }
 
+/// By the rule that ends a run (docs/theory/mpm.md, Rest): at rest is a front that stayed within
+/// `runout_change` for the last `window`, and it is since as long before as it did.
+void add_front_rest(ReportFacts& f, const std::vector<MpmSample>& samples, const RestRule& rule) {
+  double low = samples.back().front, high = low;
+  const auto widen = [&](const MpmSample& s) {
+    low = std::min(low, s.front);
+    high = std::max(high, s.front);
+    return high - low;
+  };
+  auto s = samples.rbegin();
+  for (; s != samples.rend() && s->time >= samples.back().time - rule.window; ++s)
+    f.front_change = widen(*s);
+  if (f.duration < rule.window || !(f.front_change <= rule.runout_change)) return;
+  for (; s != samples.rend() && widen(*s) <= rule.runout_change; ++s) {
+  }
+  f.front_at_rest = std::prev(s)->time;
+}
+
 void add_rest(ReportFacts& f, const std::vector<MpmSample>& samples, const RestRule& rule) {
+  f.rest = rule;
   f.duration = samples.back().time - samples.front().time;
+  f.last_speed = samples.back().max_speed;
   double peak = 0.0;
   for (const MpmSample& s : samples) {
     peak = std::max(peak, s.kinetic);
@@ -102,12 +123,7 @@ void add_rest(ReportFacts& f, const std::vector<MpmSample>& samples, const RestR
     if (!(s->kinetic <= rule.kinetic_share * peak)) break;
     f.time_at_rest = s->time;
   }
-  double since = kUnset;
-  for (auto s = samples.rbegin(); s != samples.rend(); ++s) {
-    if (!(std::abs(s->front - samples.back().front) <= rule.runout_change)) break;
-    since = s->time;
-  }
-  if (samples.back().time - since >= rule.window) f.front_at_rest = since;
+  add_front_rest(f, samples, rule);
   f.points_left = samples.back().points_left;
   f.mass_left = samples.back().mass_left;
   f.energy_error = samples.back().energy_error;
@@ -194,6 +210,7 @@ ReportFacts compute_facts(const LiquefactionZone& zone, const MpmHistory& flow,
   add_rest(f, samples, flow.rest());
   f.composition = composition(p, end, f.toe);
   f.outcome = outcome_facts(p, end, config);
+  warn_without_failure(f, zone, config);
   add_warnings(f, p, end, samples, flow.rest(), config);
   return f;
 }

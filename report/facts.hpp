@@ -50,6 +50,8 @@ struct ReportFacts {
   double duration = 0.0;           ///< [s] of the flow that was computed
   double time_at_rest = kUnset;    ///< [s] from which the kinetic energy stays small; unset: never
   double front_at_rest = kUnset;   ///< [s] from which the front stays; unset: never
+  double front_change = 0.0;       ///< [m] way of the front in the last RestRule::window
+  double last_speed = 0.0;         ///< [m/s] of the fastest point at the end
   double peak_speed = 0.0;         ///< largest speed of any point [m/s]
   double peak_front_speed = 0.0;   ///< largest mean speed of the front over an interval [m/s]
   double failed_volume = 0.0;      ///< [m3/m]
@@ -62,6 +64,7 @@ struct ReportFacts {
   double mass_error = 0.0;              ///< largest, relative
   double energy_error = 0.0;            ///< at the end, residual / work of gravity
   double momentum_error = 0.0;          ///< at the end, residual / impulse of gravity
+  RestRule rest;                        ///< of the run
   Composition composition;
   OutcomeFacts outcome;
   std::vector<std::pair<double, double>> zone_shares;  ///< of zone_shares()
@@ -85,6 +88,10 @@ void add_warnings(ReportFacts& facts, const ParticleSet& initial, const FinalSta
 /// JSON object with units in its keys: runout_m, liquefaction_depth_<window>_m, transfer_time_s,
 /// mass_error, ... A number that is unset becomes null.
 std::string to_json(const ReportFacts& facts);
+
+/// Adds a warning if no failure was found in the shaking, and soil flows nevertheless.
+void warn_without_failure(ReportFacts& facts, const LiquefactionZone& zone,
+                          const ReportConfig& config);
 
 /// Speed of the front between consecutive samples [m/s], one per sample, 0 for the first.
 std::vector<double> front_speed(const std::vector<MpmSample>& samples);

@@ -77,6 +77,8 @@ std::string to_json(const ReportFacts& f) {
   j["duration_s"] = f.duration;
   j["time_at_rest_s"] = f.time_at_rest;
   j["front_at_rest_s"] = f.front_at_rest;
+  j["front_change_at_end_m"] = f.front_change;
+  j["speed_at_end_m_s"] = f.last_speed;
   j["peak_speed_m_s"] = f.peak_speed;
   j["peak_front_speed_m_s"] = f.peak_front_speed;
   j["failed_volume_m3_per_m"] = f.failed_volume;

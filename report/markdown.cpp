@@ -69,6 +69,9 @@ std::string key_numbers(const ReportFacts& f, const ReportConfig& c) {
        {"computed flow", number(f.duration, 2, "s")},
        {"front at rest after", number(f.front_at_rest, 2, "s")},
        {"kinetic energy at rest after", number(f.time_at_rest, 2, "s")},
+       {fmt::format("way of the front in the last {:g} s", f.rest.window),
+        number(f.front_change, 3, "m")},
+       {"speed of the fastest point at the end", number(f.last_speed, 2, "m/s")},
        {"largest speed of a point", number(f.peak_speed, 2, "m/s")},
        {"largest speed of the front", number(f.peak_front_speed, 2, "m/s")},
        {"failed volume", number(f.failed_volume, 1, "m³/m")},
@@ -148,8 +151,9 @@ std::string definitions(const ReportConfig& c, const RestRule& rest) {
       "- Depth of liquefaction: of the deepest node in a window whose pore-pressure ratio r_u "
       "exceeds the threshold of the zone stage, below its datum; largest value up to the "
       "transfer.\n"
-      "- At rest: the front stays within {1:g} m of its final place for the last {2:g} s, or the "
-      "kinetic energy stays below {3:g} of its peak.\n"
+      "- At rest: the front stays within {1:g} m to the end, for {2:g} s or more; the kinetic "
+      "energy stays below {3:g} of its peak. A run ends by itself when both do, so its front may "
+      "still creep by {1:g} m in {2:g} s.\n"
       "- Balance errors: at the end of the run; of mass the largest. The energy error contains "
       "what "
       "the time integration and the transfer between points and grid lost unaccounted for.\n\n",

@@ -46,6 +46,38 @@ std::string crest_sentence(const CrestFacts& crest) {
   return out + ". ";
 }
 
+/// How the run ended: by which of the two rules of rest, and what still moves then.
+std::string rest_sentence(const ReportFacts& f) {
+  constexpr double told = 0.05;  // [m/s] of the fastest point
+  const std::string front = fmt::format("within {:g} m since", f.rest.runout_change),
+                    energy = fmt::format("below {:g} of its peak since", f.rest.kinetic_share);
+  std::string out;
+  if (is_set(f.front_at_rest) && is_set(f.time_at_rest))
+    out = fmt::format(
+        "The front came to rest {:.1f} s after the transfer ({}), the kinetic energy after {:.1f} "
+        "s ({}).",
+        f.front_at_rest, front, f.time_at_rest, energy);
+  else if (is_set(f.front_at_rest))
+    out = fmt::format(
+        "The front came to rest {:.1f} s after the transfer ({}); the kinetic energy was still "
+        "above {:g} of its peak when the run ended.",
+        f.front_at_rest, front, f.rest.kinetic_share);
+  else if (is_set(f.time_at_rest))
+    out = fmt::format(
+        "**The front had not come to rest when the run ended:** it moved by {:.2g} m in the last "
+        "{:g} s. The kinetic energy came to rest after {:.1f} s ({}).",
+        f.front_change, f.rest.window, f.time_at_rest, energy);
+  else
+    return "**The flow had not come to rest when the run ended.**";
+  if (f.last_speed >= told)
+    out += fmt::format(" At its end the fastest point still moved at {:.2f} m/s{}.", f.last_speed,
+                       is_set(f.front_at_rest)
+                           ? fmt::format(", the front by {:.2g} m in the last {:g} s",
+                                         f.front_change, f.rest.window)
+                           : "");
+  return out;
+}
+
 }  // namespace
 
 std::string number(double value, int decimals, std::string_view unit) {
@@ -71,12 +103,7 @@ std::string summary_markdown(const ReportFacts& f, const ReportConfig& c) {
     out += fmt::format("{:.0f} m³ per metre came to lie beyond the toe. ", f.volume_past_toe);
   out += fmt::format("The fastest point reached {:.1f} m/s, the front {:.1f} m/s. ", f.peak_speed,
                      f.peak_front_speed);
-  if (is_set(f.front_at_rest))
-    out += fmt::format("The front came to rest {:.1f} s after the transfer.", f.front_at_rest);
-  else if (is_set(f.time_at_rest))
-    out += fmt::format("The flow came to rest {:.1f} s after the transfer.", f.time_at_rest);
-  else
-    out += "**The flow had not come to rest when the run ended.**";
+  out += rest_sentence(f);
   return out + "\n\n";
 }
 

@@ -37,15 +37,37 @@ double exceeded(std::vector<Place>& moved) {
   return std::max(0.0, height(moved));  // the share is that of the height
 }
 
+/// Edge of the points that are whole: the median, since many at a surface or a material limit are
+/// cut. Reorders `edges`.
+double whole_edge(std::vector<double>& edges) {
+  const auto middle = edges.begin() + std::ssize(edges) / 2;
+  std::nth_element(edges.begin(), middle, edges.end());
+  return *middle;
+}
+
+/// Surface of the undeformed section above the points that count: the highest upper side of any.
+double surface_above(const ParticleSet& p, const FinalState& end, double whole) {
+  double level = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (!end.counts[i]) continue;
+    // What a level surface cut is as wide as the others, and only as high as its volume tells.
+    const double high = std::min(p.volume[i] / whole, std::sqrt(p.volume[i]));
+    level = std::max(level, end.undeformed[i][1] + 0.5 * high);
+  }
+  return level;
+}
+
 CrestFacts crest_facts(const ParticleSet& p, const FinalState& end, const ReportConfig& config) {
   CrestFacts c;
   double top = -std::numeric_limits<double>::infinity(), spacing = 0.0;
+  std::vector<double> edges;
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (!end.counts[i]) continue;
     top = std::max(top, end.undeformed[i][1]);
-    spacing = std::max(spacing, std::sqrt(p.volume[i]));
+    edges.push_back(std::sqrt(p.volume[i]));
+    spacing = std::max(spacing, edges.back());
   }
-  if (!std::isfinite(top)) return c;
+  if (edges.empty()) return c;
   const auto highest = [&](std::size_t i) {
     return end.counts[i] && end.undeformed[i][1] > top - spacing;
   };
@@ -66,7 +88,7 @@ CrestFacts crest_facts(const ParticleSet& p, const FinalState& end, const Report
     a->flow /= mass;
     a->both = a->shaking + a->flow;
   }
-  c.level = top + 0.5 * spacing;
+  c.level = surface_above(p, end, whole_edge(edges));
   if (config.pond) c.freeboard = c.level - c.settlement.both - *config.pond;
   return c;
 }

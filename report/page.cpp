@@ -62,8 +62,8 @@ std::string cards(const ReportInputs& in, const ReportFacts& f) {
   list.push_back({"failed volume", number(f.failed_volume, 0), "m³/m",
                   fmt::format("{:.0f} % of what counts", f.failed_percent)});
   list.push_back({"fastest point", number(f.peak_speed, 1), "m/s", ""});
-  const double rest = is_set(f.front_at_rest) ? f.front_at_rest : f.time_at_rest;
-  list.push_back({"at rest", is_set(rest) ? number(rest, 0) : "never", is_set(rest) ? "s" : "",
+  const bool rests = is_set(f.front_at_rest);
+  list.push_back({"front at rest", rests ? number(f.front_at_rest, 0) : "never", rests ? "s" : "",
                   fmt::format("of {:.0f} s computed", f.duration)});
   if (const ToldStage* flow = find_stage(in.stages, "mpm.run"))
     list.push_back({"cell size", find_setting(flow->settings, "cell"), "",

@@ -43,12 +43,25 @@ class Section:
         if failed.any():
             left = max(left, p["x0"][failed].min() - height)
         flow_end = max(right, p["x"].max() + 0.3 * height)
-        self.ylim = (p["y0"].min() - 0.05 * height, top + 0.28 * height)
+        high = top + 0.28 * height
+        self.ylim = (self._lowest() - 0.05 * height, high)
+        self.dam_ylim = (p["y0"].min() - 0.05 * height, high)
         self.windows = [("Whole flow", (left, flow_end))]
         toe = self.info["toe_m"]
         if toe is not None and toe - 5 * height > left + 0.2 * (flow_end - left):
             self.windows.append(("Dam and runout", (toe - 5 * height, flow_end)))
         self.dam = (left if toe is None else max(left, toe - 5 * height), right)
+
+    def _lowest(self):
+        """Of the section, of the flow, and of the ground under it: a valley may fall."""
+        p, ground = self.points, self.ground
+        low = min(p["y0"].min(), p["y"].min())
+        if len(ground) == 0:
+            return low
+        left, right = p["x"].min(), p["x"].max()
+        between = ground[(ground[:, 0] > left) & (ground[:, 0] < right), 1]
+        ends = np.interp([left, right], *ground.T)
+        return min([low, *ends, *between])
 
 
 def inches_high(xlim, ylim, bar):
@@ -82,7 +95,33 @@ def colour_bar(figure, mappable, axes, label, **options):
     box = ((WIDTH - 0.72) / WIDTH, middle - 0.5 * size, 0.11 / WIDTH, size)
     bar = figure.colorbar(mappable, cax=figure.add_axes(box), label=label, **options)
     bar.outline.set_linewidth(0.4)
+    fit_label(figure, bar.ax)
     return bar
+
+
+def fit_label(figure, ax):
+    """Breaks the label of the bar of a flat section, moves it, and makes it smaller if it must, so
+    that the edge of the figure cuts nothing off."""
+    label, renderer = ax.yaxis.label, figure.canvas.get_renderer()
+
+    def overhang():
+        """Of its lower, upper and right end [pixels]; the label gets its place with the ticks."""
+        ax.yaxis.get_tightbbox(renderer)
+        box = label.get_window_extent(renderer)
+        return -box.y0, box.y1 - figure.bbox.y1, box.x1 - figure.bbox.x1
+
+    below, above, _ = overhang()
+    text = label.get_text()
+    if below + above > 0 and " " in text:
+        spaces = [k for k, character in enumerate(text) if character == " "]
+        middle = min(spaces, key=lambda k: abs(k - len(text) / 2))
+        label.set_text(text[:middle] + "\n" + text[middle + 1:])
+    while sum(overhang()[:2]) > 0 or overhang()[2] > 0:
+        if label.get_fontsize() <= 4:
+            break
+        label.set_fontsize(label.get_fontsize() - 0.5)
+    below, above, _ = overhang()
+    label.set_y(label.get_position()[1] + (max(below, 0) - max(above, 0)) / ax.bbox.height)
 
 
 def draw_points(ax, section, chosen, **colour):
@@ -262,7 +301,7 @@ def section_before(section):
     tags, soils = np.unique(e["material"], return_inverse=True)
     names = {s["tag"]: s["name"] for s in info["soils"]}
     footer = 0.22 + 0.16 * (1 + len(tags) // 4)
-    figure, axes = stacked(panels, section.ylim, bar=0.85, footer=footer)
+    figure, axes = stacked(panels, section.dam_ylim, bar=0.85, footer=footer)
     greys = ListedColormap(["0.93", "0.84", "0.75", "0.88", "0.79"])
     bars = []
     for ax in axes:

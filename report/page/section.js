@@ -16,7 +16,7 @@ class Section {
     this.view = new View({
       run,
       windows: frames.dam,
-      range: frames.range,
+      range: frames.damRange,
       label: "Elements of the section before the flow. Plus and minus zoom.",
       paint: (view, c) => this.paint(view, c),
       find: (view, x, y) => this.find(x, y),

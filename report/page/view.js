@@ -99,16 +99,16 @@ class View {
     const c = this.context,
       line = this.run.ground;
     if (!line.length) return;
-    const ends = [
-      [this.x0, line[0][1]],
+    // All of its corners: one beyond the window gives the ground at the edge its height.
+    const path = [
+      [Math.min(this.x0, line[0][0]), line[0][1]],
       ...line,
-      [this.x(VIEW.left + this.wide), line[line.length - 1][1]],
+      [Math.max(this.x(VIEW.left + this.wide), line[line.length - 1][0]), line[line.length - 1][1]],
     ];
-    const path = ends.filter(([x]) => x >= this.x0 || x === line[0][0]);
     c.beginPath();
     path.forEach(([x, y], i) => c[i ? "lineTo" : "moveTo"](this.px(x), this.py(y)));
-    c.lineTo(VIEW.left + this.wide, VIEW.top + this.high + 2);
-    c.lineTo(VIEW.left, VIEW.top + this.high + 2);
+    c.lineTo(this.px(path[path.length - 1][0]), VIEW.top + this.high + 2);
+    c.lineTo(this.px(path[0][0]), VIEW.top + this.high + 2);
     c.closePath();
     c.fillStyle = cssVariable("--ground");
     c.fill();

@@ -24,6 +24,11 @@ std::string series_class(std::size_t series) { return fmt::format("s{}", series 
 /// Room on either side of one value.
 double beside(double value) { return std::max(0.05 * std::abs(value), 1.0); }
 
+/// Lower end of an axis: of one value that may be no less than 0, as a runout, not below it.
+double lower_end(double low, double high, double room) {
+  return low >= 0.0 && !apart(low, high) ? std::max(0.0, low - room) : low - room;
+}
+
 /// A label that leaves room for the bars beside it; their titles have all of it.
 std::string short_label(const std::string& text) {
   constexpr std::size_t kMost = 18;
@@ -44,9 +49,9 @@ class Frame {
   Frame(double x0, double x1, double y0, double y1) : x0_(x0), x1_(x1), y0_(y0), y1_(y1) {
     const double dx = apart(x0, x1) ? 0.04 * (x1 - x0) : beside(x0);
     const double dy = apart(y0, y1) ? 0.06 * (y1 - y0) : beside(y0);
-    x0_ -= dx;
+    x0_ = lower_end(x0, x1, dx);
     x1_ += dx;
-    y0_ -= dy;
+    y0_ = lower_end(y0, y1, dy);
     y1_ += dy;
   }
   [[nodiscard]] double x(double v) const {
@@ -209,7 +214,7 @@ Svg draw_tornado(std::vector<Swing> swings, double usual_scatter, const std::str
     high = std::max({high, s.effect.low, s.effect.high});
   }
   const double room = apart(low, high) ? 0.02 * (high - low) : beside(low);
-  low -= room;
+  low = lower_end(low, high, room);
   high += room;
   // words stand outside the bars
   double left = 0.0, right = 0.0;

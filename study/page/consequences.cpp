@@ -31,6 +31,9 @@ constexpr std::array kConsequences{
                 "The runout hangs on elastic constants and on the cells: compare it with smaller "
                 "cells before using it."},
     Consequence{"that of the model, and may be larger", "The runout is a lower bound."},
+    Consequence{"No failure was found in the shaking",
+                "The runout is what the residual strengths let flow: the shaking by itself moved "
+                "the dam no farther than its crest says, and the strengths decide."},
     Consequence{"The run was stopped before rest", "The runout is a lower bound."},
     Consequence{"Do not use the runout before the cause", "The runout says nothing yet."},
     Consequence{"left the model through its outlet",
@@ -40,6 +43,8 @@ constexpr std::array kConsequences{
                 "by the runout without the thin tip."},
     Consequence{"The failure reaches the upstream end of the model",
                 "More soil may flow than the model has: the runout may be too small."},
+    Consequence{"The runout counts to the right only",
+                "What ran out to the left is not in it: a run of the mirrored section has that."},
     Consequence{"This report uses the frame",
                 "The runout is uncertain by the difference between the two."},
     Consequence{"No soil that counts has a downstream end", "These rows have no runout."},

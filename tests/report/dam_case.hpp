@@ -176,6 +176,7 @@ inline std::array<double, 3> flowed(const std::array<double, 3>& x, double front
 struct Flow {
   double front = 200.0;  ///< of the points that start at x = 40; the top of the dam stays behind
   double end = 40.0;     ///< [s]; at rest from 30 s on
+  double fall = 0.0;     ///< of the valley beyond the toe, which the points follow [-]
 };
 
 /// Writes the history of a flow whose frames follow `flowed`; samples repeat the definition of the
@@ -188,6 +189,7 @@ inline void write_flow(const std::filesystem::path& path, const ParticleSet& p, 
     const double share = std::min(1.0, time / 30.0);
     for (std::size_t i = 0; i < p.size(); ++i) {
       f.position.push_back(flowed(p.position[i], flow.front, share));
+      f.position.back()[1] -= flow.fall * std::max(0.0, f.position.back()[0] - kToe);
       f.strength.push_back(p.material[i] == 0 ? kUnset : 5000.0 * (1.0 - 0.5 * share));
     }
     f.velocity.resize(p.size());

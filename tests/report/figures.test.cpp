@@ -8,6 +8,7 @@
 #include "tests/support/scratch.hpp"
 
 #include <cstdlib>
+#include <sstream>
 
 #include <catch2/catch.hpp>
 
@@ -16,10 +17,11 @@ using namespace flowslide;
 namespace {
 
 /// What the figures are drawn from, in scratch/report.
-void write_case(const Scratch& scratch, bool shaken) {
+void write_case(const Scratch& scratch, bool shaken, const dam_case::Flow& moves = {},
+                const std::vector<ToldStage>& stages = {}) {
   const QuadMesh mesh = dam_case::mesh();
   const ParticleSet particles = dam_case::particles();
-  dam_case::write_flow(scratch / "mpm.h5", particles, {});
+  dam_case::write_flow(scratch / "mpm.h5", particles, moves);
   dam_case::write_history(scratch / "history.h5", shaken);
   const MpmHistory flow(scratch / "mpm.h5");
   const LiquefactionZone zone = dam_case::zone(mesh, shaken);
@@ -27,9 +29,23 @@ void write_case(const Scratch& scratch, bool shaken) {
   const std::filesystem::path out = scratch / "report";
   std::filesystem::create_directories(out / "data");
   write_plot_data(out / "data", FemHistory(scratch / "history.h5"), zone, flow, end,
-                  compute_facts(zone, flow, end, {}), {});
+                  compute_facts(zone, flow, end, {}), {}, stages);
   std::ofstream(out / "runout.csv") << runout_csv(flow.samples(), flow.initial().toe);
   std::ofstream(out / "zone.csv") << zone_csv(zone.history);
+}
+
+/// What a few lines of Python print that use the scripts of the figures.
+std::string answer_of(const Scratch& scratch, const std::string& lines) {
+  std::filesystem::create_directories(scratch / "plot");
+  write_plot_scripts(scratch / "plot");
+  scratch.write("plot/ask.py", "import pathlib\n" + lines);
+  const std::string command =
+      "cd '" + scratch.path().string() +
+      "' && { python3 plot/ask.py || /usr/bin/python3 plot/ask.py; } 2>log >out";
+  const int status = std::system(command.c_str());
+  INFO(read_text_file(scratch / "log"));
+  REQUIRE(status == 0);
+  return read_text_file(scratch / "out");
 }
 
 /// Width and height from the header of a PNG; zeros if it is none.
@@ -150,6 +166,59 @@ TEST_CASE("The scripts draw beside themselves when a user runs them") {
   CHECK(status == 0);
   CHECK(std::filesystem::exists(scratch / "plot/figures/section_before.svg"));
   CHECK_FALSE(std::filesystem::exists(scratch / "report/figures"));
+}
+
+TEST_CASE("A flow down a falling valley lies within the figures, and so does the ground under it") {
+  // The valley falls 20 % beyond the toe at x = 75; the mesh ends at y = -5, x = 85.
+  const std::vector<ToldStage> ground{
+      {"flow", "mpm.run",
+       "ground.surface = [[-140 m, -5 m], [85 m, -5 m], [85 m, -2 m], [600 m, -105 m]]\n", "{}"}};
+  for (const double fall : {0.2, 0.0}) {
+    CAPTURE(fall);
+    const Scratch scratch;
+    write_case(scratch, false, {.fall = fall}, fall > 0.0 ? ground : std::vector<ToldStage>{});
+    std::istringstream out(
+        answer_of(scratch,
+                  "from plot_section import Section\n"
+                  "s = Section(pathlib.Path('report/data'))\n"
+                  "print(s.ylim[0], s.points['y'].min(), s.points['x'].max(), s.dam_ylim[0])\n"));
+    double bottom = 0.0, lowest = 0.0, far = 0.0, dam_bottom = 0.0;
+    out >> bottom >> lowest >> far >> dam_bottom;
+    CHECK(far > 150.0);
+    CHECK(dam_bottom == Approx(-5.0).margin(2.5));
+    if (fall > 0.0) {
+      CHECK(lowest < -10.0);
+      CHECK(bottom < lowest);
+      CHECK(bottom < -2.0 - 0.2 * (far - 85.0));  // the ground under the front
+    } else {
+      CHECK(bottom == dam_bottom);  // control: nothing is lower than the section
+    }
+  }
+}
+
+TEST_CASE("The label of a colour bar is not cut, however flat the section") {
+  const Scratch scratch;
+  // Height of a section that is 1000 m long, and the overhang of the label over the figure.
+  for (const int height : {20, 60, 120, 500}) {
+    CAPTURE(height);
+    std::istringstream out(answer_of(
+        scratch,
+        fmt::format("import plot_style\nfrom matplotlib.cm import ScalarMappable\n"
+                    "from plot_section import stacked, colour_bar\n"
+                    "figure, axes = stacked([('Whole flow', (0, 1000))], (0, {}), bar=0.85)\n"
+                    "label = 'strength / strength at transfer'\n"
+                    "bar = colour_bar(figure, ScalarMappable(cmap='cividis'), axes, label)\n"
+                    "figure.canvas.draw()\n"
+                    "text = bar.ax.yaxis.label\n"
+                    "box, edge = text.get_window_extent(), figure.bbox\n"
+                    "print(min(box.y0, edge.y1 - box.y1, edge.x1 - box.x1), text.get_fontsize())\n"
+                    "assert text.get_text().replace(chr(10), ' ') == label\n",
+                    height)));
+    double room = 0.0, size = 0.0;
+    out >> room >> size;
+    CHECK(room > -0.5);  // pixels of 1/100 inch
+    CHECK(size > 5.0);   // it can still be read
+  }
 }
 
 TEST_CASE("An interpreter that sleeps is ended") {

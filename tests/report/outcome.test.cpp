@@ -3,6 +3,7 @@
 #include "report/composition.hpp"
 #include "report/facts.hpp"
 #include "tests/report/dam_case.hpp"
+#include "transfer/seeding/seed.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -65,6 +66,67 @@ TEST_CASE("Displacements of shaking and of flow stand apart") {
   CHECK(f.crest.settlement.flow == Approx(0.1));
   CHECK(f.crest.freeboard == Approx(0.6));
   CHECK_FALSE(is_set(outcome_facts(b.p, b.end, {}).crest.freeboard));
+}
+
+TEST_CASE("The level of the crest is that of the section, however its surface cuts the points") {
+  ReportConfig config;
+  config.pond = 18.0;
+  // Height that the surface left of the uppermost row of points, of 1 m.
+  for (const double left : {1.0, 0.7, 0.3, 0.02}) {
+    CAPTURE(left);
+    Block b({0.0, -0.5}, {0.0, 0.0});
+    for (std::size_t i = 19; i < b.p.size(); i += 20) {
+      b.p.volume[i] = left;
+      b.p.mass[i] *= left;
+      for (auto* y : {&b.end.undeformed[i][1], &b.end.position[i][1], &b.p.position[i][1]})
+        *y -= 0.5 * (1.0 - left);
+    }
+    const CrestFacts c = outcome_facts(b.p, b.end, config).crest;
+    CHECK(c.level == Approx(19.0 + left));
+    CHECK(c.freeboard == Approx(19.0 + left - 0.5 - 18.0));
+  }
+}
+
+TEST_CASE("The crest of a seeded section is as high as its mesh before the earthquake") {
+  // A trapezium of 60 m with a crest of 10 m at y = 12: lattices that end there and that do not,
+  // and points of which some are small.
+  QuadMesh m;
+  constexpr int columns = 30, rows = 12;
+  for (int i = 0; i <= columns; ++i)
+    for (int j = 0; j <= rows; ++j) {
+      const double y = 12.0 * j / rows, x = (i - 0.5 * columns) * (2.0 - 5.0 / 3.0 * y / 12.0);
+      m.nodes.push_back({x, y});
+    }
+  for (int i = 0; i < columns; ++i)
+    for (int j = 0; j < rows; ++j) {
+      const int a = i * (rows + 1) + j;
+      m.elements.push_back({a, a + rows + 1, a + rows + 2, a + 1});
+      m.element_tags.push_back(std::ssize(m.elements));
+    }
+  const std::size_t n = m.num_elements();
+  const SeedDomain domain{m,
+                          m.nodes,
+                          std::vector<double>(n, 1900.0),
+                          std::vector<std::int32_t>(n, 0),
+                          {-1e3, 1e3, -1e3, 1e3}};
+  for (const double spacing : {0.5, 0.375, 0.7, 1.0})
+    for (const double from : {0.0, 0.11, 0.29, 0.46}) {
+      CAPTURE(spacing, from);
+      const SeedSet seeds = seed_lattice(domain, {.spacing = spacing, .origin = {0.0, from}});
+      ParticleSet p;
+      FinalState end;
+      resize(p, seeds.seeds.size());
+      for (std::size_t i = 0; i < p.size(); ++i) {
+        p.position[i] = {seeds.seeds[i].position[0], seeds.seeds[i].position[1], 0.0};
+        p.volume[i] = seeds.seeds[i].volume;
+        p.mass[i] = seeds.seeds[i].mass;
+      }
+      end.undeformed = end.position = p.position;
+      end.displacement.assign(p.size(), 0.0);
+      end.counts.assign(p.size(), 1);
+      end.failed.assign(p.size(), 0);
+      CHECK(outcome_facts(p, end, {}).crest.level == Approx(12.0).margin(0.03));
+    }
 }
 
 TEST_CASE("A word for what happened, by stated limits") {

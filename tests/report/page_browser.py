@@ -98,6 +98,45 @@ def check_player(page):
     expect(f"a point tells its values ({tip})", "displacement" in tip)
 
 
+def check_menu(page):
+    """Its entries and buttons lie within it, and a chapter that it leads to is not below it."""
+    over = page.run("""(() => { const nav = document.querySelector('nav'),
+        within = nav.getBoundingClientRect();
+        return Math.max(...[...nav.querySelectorAll('a, button')].map(
+            (e) => e.getBoundingClientRect().right - within.right)); })()""")
+    expect(f"the menu is not cut off ({over:.0f})", over <= 0)
+    place = page.run("""(() => { document.documentElement.style.scrollBehavior = 'auto';
+        document.querySelector('nav a[href="#key-numbers"]').click();
+        const top = (s) => document.querySelector(s).getBoundingClientRect();
+        return top('#key-numbers h2, #key-numbers').top - top('nav').bottom; })()""")
+    expect(f"and covers no heading ({place:.0f})", place >= 0)
+
+
+def check_windows(page):
+    """By the function itself: nothing of the page reaches its names."""
+    code = pathlib.Path(__file__).parents[2].joinpath("report/page/windows.js").read_text()
+
+    def bottom(ground, ys):
+        found = page.run("""(() => { %s
+            const found = sectionWindows(
+              { materials: [{ counts: true }], moved_m: 1, toe_m: 10, ground: %s },
+              { count: 2, frames: 3, x0: [0, 5], y0: [0, 10], xs: [0, 5, 0, 30, 0, 50], ys: %s,
+                material: [0, 0] });
+            return [found.range[0], found.damRange[0]]; })()""" % (code, ground, ys))
+        expect(f"the section alone is framed as ever ({found[1]})", abs(found[1] + 0.8) < 1e-9)
+        return found[0]
+
+    expect("a flow on level ground is framed as the section",
+           abs(bottom("[]", [0, 10, 0, 5, 0, 2]) + 0.8) < 1e-9)
+    expect("one that falls is seen whole, at every time",
+           abs(bottom("[]", [0, 10, 0, -30, 0, -20]) + 30.8) < 1e-9)
+    # The ground falls from 0 at x = 0 to -100 at x = 100, and the points end at x = 50.
+    expect("and the ground under it",
+           abs(bottom("[[0, 0], [100, -100]]", [0, 10, 0, 5, 0, 2]) + 50.8) < 1e-9)
+    expect("which goes on level beyond its ends",
+           abs(bottom("[[20, -3], [40, -7]]", [0, 10, 0, 5, 0, 2]) + 7.8) < 1e-9)
+
+
 HIDE = "document.styleSheets[0].insertRule('%s { visibility: hidden; }')"
 SEEN = {"flow": "#player canvas", "section": "#section canvas", "runout": ".panel svg.chart"}
 
@@ -135,12 +174,15 @@ def main(program, pictures=None, write=None):
                 expect(f"{name}: numbers are unpacked",
                        page.run("document.documentElement.dataset.ready") == "yes")
                 check_text(page)
+                if not phone:
+                    check_menu(page)
                 if pictures:
                     page.picture(pathlib.Path(pictures, f"{name}.png"))
             look(page, path, write == "--write")
             page.open(path, 1280)
             check_charts(page)
             check_player(page)
+            check_windows(page)
             expect("the console is silent, and nothing is loaded: " + "; ".join(page.said),
                    not page.said)
             # Control: a script that is not the page's own does not run, and the console tells.

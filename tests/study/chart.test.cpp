@@ -107,3 +107,16 @@ TEST_CASE("Words of a tornado stay inside the picture", "[study]") {
   }
   CHECK(seen == 4);
 }
+
+TEST_CASE("runouts that are all 0 are drawn from 0 on", "[study]") {
+  ScatterChart chart;
+  chart.dots.resize(2);
+  chart.dots[1].x = 1.0;
+  // The first of its characters in a text: a tick below zero.
+  const auto has_minus = [&] {
+    return draw(chart).alone("runout").find(">-") != std::string::npos;
+  };
+  CHECK_FALSE(has_minus());
+  for (Dot& d : chart.dots) d.y = -5.0;
+  CHECK(has_minus());  // control: what is negative has its place
+}

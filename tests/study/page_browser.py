@@ -15,6 +15,7 @@ import tempfile
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "report"))
 sys.dont_write_bytecode = True
 from browser import Browser, find_chromium  # noqa: E402
+from page_functions import check_ground, check_zero  # noqa: E402
 from pictures import Pictures  # noqa: E402
 
 DOTS = "document.querySelectorAll('.scatter circle.dot:not(g[transform] circle)')"
@@ -434,6 +435,11 @@ def main(test_study, test_report, pictures=None, write=None):
                        page.run("document.documentElement.dataset.ready") == "yes")
                 expect(f"{name}: nothing is wider than the page", page.run(
                     "document.documentElement.scrollWidth <= innerWidth"))
+                over = page.run("""(() => { const nav = document.querySelector('nav'),
+                    edge = nav.getBoundingClientRect().right;
+                    return Math.max(...[...nav.querySelectorAll('a, button')].map(
+                        (e) => e.getBoundingClientRect().right - edge)); })()""")
+                expect(f"{name}: the menu is not cut off ({over:.0f})", phone or over <= 0)
                 if pictures:
                     page.picture(pathlib.Path(pictures, f"study-{name}.png"))
             look(page, folder, write == "--write")
@@ -441,8 +447,10 @@ def main(test_study, test_report, pictures=None, write=None):
             check_touch(page)
             page.open(folder / "study.html", 1280)
             check_section(page)
+            check_ground(page, expect)
             check_strands(page)
             check_explorer(page)
+            check_zero(page, expect)
             check_choices(page)
             check_zoom(page)
             check_saving(page)

@@ -75,10 +75,7 @@ TransferChoice automatic(const AutomaticTransfer& rule, const ZoneHistory& h,
               rule.growth, h.time[rising->grown]));
     }
     if (usable == n) {
-      return at_sample(
-          h, n - 1,
-          "the kinetic energy never leaves its pre-failure envelope, so the end of the "
-          "record is taken");
+      return at_sample(h, n - 1, fmt::format("{}, so the end of the record is taken", kNoFailure));
     }
     return at_sample(
         h, usable - 1,

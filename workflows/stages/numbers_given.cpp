@@ -32,8 +32,8 @@ constexpr std::string_view kOfReport =
     "displacement_largest.flow_m displacement_largest.both_m crest.x_m crest.level_m "
     "crest.outward.shaking_m crest.outward.flow_m crest.outward.both_m crest.settlement.shaking_m "
     "crest.settlement.flow_m crest.settlement.both_m crest.freeboard_m transfer_time_s duration_s "
-    "time_at_rest_s front_at_rest_s peak_speed_m_s peak_front_speed_m_s failed_volume_m3_per_m "
-    "failed_percent volume_past_toe_m3_per_m deepest_failed_y_m deepest_failed_mass_quantile_y_m "
+    "time_at_rest_s front_at_rest_s front_change_at_end_m speed_at_end_m_s peak_speed_m_s "
+    "peak_front_speed_m_s failed_volume_m3_per_m failed_percent volume_past_toe_m3_per_m deepest_failed_y_m deepest_failed_mass_quantile_y_m "
     "points_left mass_left_kg_per_m mass_error energy_error momentum_error";
 
 /// Of a part of the section.

@@ -55,7 +55,7 @@ std::optional<GroundMotion> motion_of(const std::vector<EarlierStage>& stages) {
 struct ReportStage {
   static constexpr std::string_view name = "report.runout";
   static constexpr std::string_view doc = "Facts, figures, tables and ParaView files of a runout.";
-  static constexpr int version = 6;
+  static constexpr int version = 7;
   static constexpr bool checkpoints = false;
   static constexpr bool reads_warnings = true;
   static constexpr bool reads_earlier = true;

@@ -35,7 +35,8 @@ class Scatter {
     );
     const single = high - low <= 1e-9 * Math.max(Math.abs(low), Math.abs(high));
     const room = single ? Math.max(0.05 * Math.abs(low), 0.5) : 0.05 * (high - low);
-    return [low - room, high + room];
+    // Of one value that may be no less than 0, as a runout, nothing below 0 is shown.
+    return [single && low >= 0 ? Math.max(0, low - room) : low - room, high + room];
   }
 
   px(x) {

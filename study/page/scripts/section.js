@@ -58,15 +58,26 @@ class SectionDrawing {
   ground() {
     const line = this.section.ground;
     if (!line.length) return [];
-    const [a, b] = this.range,
-      last = line[line.length - 1];
-    const inside = [[a, line[0][1]], ...line.filter(([x]) => x > a && x < b), [b, last[1]]];
+    const [a, b] = this.range;
+    const inside = [
+      [a, this.groundAt(a)],
+      ...line.filter(([x]) => x > a && x < b),
+      [b, this.groundAt(b)],
+    ];
     const edge = this.path(inside),
       [left, right] = this.sides;
     return [
       draw("path", { class: "rigid", d: `${edge}L${right} ${this.bottom}L${left} ${this.bottom}Z` }),
       draw("path", { class: "rigidline", d: edge }),
     ];
+  }
+
+  groundAt(at) {
+    const line = this.section.ground,
+      k = line.findIndex(([x]) => x >= at);
+    if (k <= 0) return (k ? line[line.length - 1] : line[0])[1];
+    const [[x0, y0], [x1, y1]] = [line[k - 1], line[k]];
+    return y0 + ((y1 - y0) * (at - x0)) / (x1 - x0);
   }
 
   /** The pond, and the water table as a line: each where there is water. */
