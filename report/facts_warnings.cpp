@@ -119,9 +119,8 @@ void warn_without_failure(ReportFacts& f, const LiquefactionZone& zone,
                         crest.outward.shaking, crest.settlement.shaking)
           : "";
   f.warnings.push_back(fmt::format(
-      "No failure was found in the shaking: the section withstood it to the end of the record, t = "
-      "{:.4g} s{}. What flows does so by the residual strengths alone, which the soil is given at "
-      "the transfer.",
+      "No failure was found in the shaking, which ends at t = {:.4g} s{}. What flows does so by the "
+      "residual strengths alone, which the soil is given at the transfer.",
       zone.transfer_time, moved));
 }
 

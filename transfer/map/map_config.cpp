@@ -119,7 +119,7 @@ void check(const MapConfig& c) {
           "second is '{}'",
           source, name);
     std::visit(
-        [&]<class M>(const Material<M>& law) {
+        [&, &name = name]<class M>(const Material<M>& law) {
           const std::string_view missing = left_to_points<M>(M::initial_state(law.params));
           validate(missing.empty(),
                    "materials.{}.{}: '{}' is missing (points bring it of soil that has liquefied "
