@@ -101,10 +101,10 @@ void check_shear(const PointShear& s) {
   // Stress-controlled tests leave small strains only when they are about to end.
   const double steps =
       largest / s.strain_step * (s.reversal_strain.has_value() ? 4.0 * s.max_cycles : 1.0);
-  validate(steps <= kMostPointSteps,
+  validate(steps <= double{kMostPointSteps},
            "simple_shear: about {:.2g} steps (the limit is {:.0g}). Raise strain_step or lower "
            "max_cycles",
-           steps, kMostPointSteps);
+           steps, double{kMostPointSteps});
 }
 
 void check_leg(const PointLeg& leg, std::size_t index) {
@@ -132,9 +132,9 @@ void check_path(const std::vector<PointLeg>& path) {
     check_leg(path[i], i);
     steps += path[i].steps;
   }
-  validate(steps <= kMostPointSteps,
+  validate(steps <= double{kMostPointSteps},
            "path: {:.2g} steps in all legs (the limit is {:.0g}). Take fewer", steps,
-           kMostPointSteps);
+           double{kMostPointSteps});
 }
 
 }  // namespace

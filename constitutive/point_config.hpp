@@ -40,9 +40,6 @@ struct PointLeg {
   int steps = 100;
 };
 
-/// Every step of a test is kept.
-inline constexpr double kMostPointSteps = 2e7;
-
 struct PointConfig {
   PointMaterial material;
   PointStress stress;

@@ -64,16 +64,19 @@ StrainIncrement<2> mixed_step(PointUnderTest& point, const std::array<Prescribed
 StrainIncrement<2> divided_step(PointUnderTest& point, const std::array<Prescribed, 3>& step,
                                 double tolerance);
 
+/// Every step of a test is kept.
+inline constexpr std::size_t kMostPointSteps = 20'000'000;
+
 /// Direct simple shear from a consolidated stress: undrained at constant volume (both normal
 /// strains zero), drained at constant vertical stress and no lateral strain.
 struct SimpleShear {
   bool drained = false;
-  double strain_step = 5e-6;              ///< |increment of gamma| of a step
-  std::optional<double> reversal_stress;  ///< |tau| at which shearing turns [Pa]
-  std::optional<double> reversal_strain;  ///< |gamma| at which it turns
-  double stop_strain = 0.03;              ///< ends when |gamma| reaches it
-  int max_half_cycles = 1000;             ///< ends after as many reversals
-  std::size_t max_steps = 20'000'000;     ///< a test that needs more is refused
+  double strain_step = 5e-6;                ///< |increment of gamma| of a step
+  std::optional<double> reversal_stress;    ///< |tau| at which shearing turns [Pa]
+  std::optional<double> reversal_strain;    ///< |gamma| at which it turns
+  double stop_strain = 0.03;                ///< ends when |gamma| reaches it
+  int max_half_cycles = 1000;               ///< ends after as many reversals
+  std::size_t max_steps = kMostPointSteps;  ///< a test that needs more is refused
 };
 
 struct ShearRecord {
@@ -92,8 +95,8 @@ struct ShearTest {
 
 /// Runs the test; with neither reversal it is monotonic.
 /// Throws InputError for a step, stop or reversal that is not positive and for too many steps;
-/// NumericsError as mixed_step
-/// or when the stress is no longer finite, with the step and the strain.
+/// NumericsError as mixed_step or when the stress is no longer finite, with the step and the
+/// strain.
 ShearTest run_simple_shear(PointUnderTest& point, const SimpleShear& test);
 
 /// Cycles, counted in halves by reversals, before |gamma| first reaches `strain`; empty if it never

@@ -63,7 +63,7 @@ struct LiquefactionZone {
   /// Nothing was shaken: what liquefied is as the settings say, not found.
   [[nodiscard]] bool is_assumed() const { return transfer_frame < 0; }
   /// Shaken to the end of its record, and no failure was found.
-  [[nodiscard]] bool withstood() const {
+  [[nodiscard]] bool no_failure_found() const {
     return !is_assumed() && transfer_reason.starts_with(kNoFailure);
   }
   std::vector<std::string> notes;  ///< clamped values, skipped nodes, one line each

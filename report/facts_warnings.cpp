@@ -111,7 +111,7 @@ void warn_about_other_side(ReportFacts& f, const ParticleSet& p, const FinalStat
 
 void warn_without_failure(ReportFacts& f, const LiquefactionZone& zone,
                           const ReportConfig& config) {
-  if (!zone.withstood() || !(f.outcome.largest.flow > config.moved)) return;
+  if (!zone.no_failure_found() || !(f.outcome.largest.flow > config.moved)) return;
   const CrestFacts& crest = f.outcome.crest;
   const std::string moved =
       is_set(crest.level)

@@ -6,10 +6,17 @@
 #include "workflows/stages/stage_list.hpp"
 #include "workflows/stages/work.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include <nlohmann/json.hpp>
 
 namespace flowslide {
 namespace {
+
+/// How notes begin that the user is to read before the numbers.
+constexpr std::array<std::string_view, 4> kTold{"r_u reaches", "automatic.", "dry soil",
+                                                "most of the zone"};
 
 std::vector<std::string> zone_warnings(const LiquefactionZone& zone, const ZoneConfig& config) {
   std::size_t liquefied = 0, strong = 0;
@@ -20,8 +27,7 @@ std::vector<std::string> zone_warnings(const LiquefactionZone& zone, const ZoneC
   }
   std::vector<std::string> warnings;
   for (const std::string& note : zone.notes)
-    if (note.starts_with("r_u reaches") || note.starts_with("automatic.") ||
-        note.starts_with("dry soil") || note.starts_with("most of the zone"))
+    if (std::ranges::any_of(kTold, [&](std::string_view begin) { return note.starts_with(begin); }))
       warnings.push_back(note + ".");
   if (liquefied == 0)
     warnings.push_back("no element has liquefied at the transfer: nothing weakens the dam." +
