@@ -136,42 +136,42 @@ Elasticity PM4Sand::elasticity(const Constants& c, const State& s,
 }
 
 void Schema<PM4Sand::Params>::describe(FieldVisitor& v, PM4Sand::Params& p) {
-  const Range positive{.above = 0.0};
   v.quantity("Dr", p.Dr, Dim::none, {.max = 1.0, .above = 0.0}, "relative density, 0..1");
   v.quantity("G0", p.G0, Dim::none, {.max = 1e5, .above = 0.0}, "shear modulus coefficient");
-  v.quantity("hpo", p.hpo, Dim::none, positive,
+  v.quantity("hpo", p.hpo, Dim::none, {.max = 1e3, .above = 0.0},
              "contraction rate parameter; calibrate it to the cyclic strength");
   v.quantity("P_atm", p.P_atm, Dim::stress, {.min = 50e3, .max = 200e3}, "atmospheric pressure");
-  v.quantity("h0", p.h0, Dim::none, positive,
+  v.quantity("h0", p.h0, Dim::none, {.max = 1e2, .above = 0.0},
              "plastic modulus factor; left out: max(0.3, (0.25 + Dr)/2)");
-  v.quantity("emax", p.emax, Dim::none, positive, "largest void ratio");
-  v.quantity("emin", p.emin, Dim::none, positive, "smallest void ratio");
-  v.quantity("nb", p.nb, Dim::none, {.min = 0.0}, "exponent of the bounding surface");
-  v.quantity("nd", p.nd, Dim::none, {.min = 0.0}, "exponent of the dilatancy surface");
-  v.quantity("Ado", p.Ado, Dim::none, positive,
+  v.quantity("emax", p.emax, Dim::none, {.max = 10.0, .above = 0.0}, "largest void ratio");
+  v.quantity("emin", p.emin, Dim::none, {.max = 10.0, .above = 0.0}, "smallest void ratio");
+  v.quantity("nb", p.nb, Dim::none, {.min = 0.0, .max = 10.0}, "exponent of the bounding surface");
+  v.quantity("nd", p.nd, Dim::none, {.min = 0.0, .max = 10.0}, "exponent of the dilatancy surface");
+  v.quantity("Ado", p.Ado, Dim::none, {.max = 1e2, .above = 0.0},
              "dilatancy coefficient; left out: from the surfaces at the initial state");
-  v.quantity("z_max", p.z_max, Dim::none, positive,
+  v.quantity("z_max", p.z_max, Dim::none, {.max = 1e3, .above = 0.0},
              "limit of fabric; left out: min(0.7 exp(-6.1 xi_R0), 20)");
-  v.quantity("cz", p.cz, Dim::none, {.min = 0.0}, "rate of fabric growth");
-  v.quantity("ce", p.ce, Dim::none, positive,
+  v.quantity("cz", p.cz, Dim::none, {.min = 0.0, .max = 1e6}, "rate of fabric growth");
+  v.quantity("ce", p.ce, Dim::none, {.max = 10.0, .above = 0.0},
              "factor on the strain accumulation after liquefaction; left out: 0.5 to 0.2 for Dr "
              "0.55 to 0.75");
   v.quantity("phi_cv", p.phi_cv, Dim::angle, {.above = 0.0, .below = 1.2},
              "friction angle at the critical state");
   v.quantity("nu", p.nu, Dim::none, {.min = 0.0, .below = 0.5}, "Poisson's ratio");
-  v.quantity("Cgd", p.Cgd, Dim::none, {.min = 1.0}, "largest degradation of G by fabric");
-  v.quantity("Cdr", p.Cdr, Dim::none, positive,
+  v.quantity("Cgd", p.Cgd, Dim::none, {.min = 1.0, .max = 1e2},
+             "largest degradation of G by fabric");
+  v.quantity("Cdr", p.Cdr, Dim::none, {.max = 1e3, .above = 0.0},
              "factor on the dilatancy of the rotated surface; left out: 5 + 25 (Dr - 0.35), at "
              "most 10; needed below Dr = 0.19");
-  v.quantity("Ckaf", p.Ckaf, Dim::none, positive,
+  v.quantity("Ckaf", p.Ckaf, Dim::none, {.max = 1e3, .above = 0.0},
              "factor on the plastic modulus under a static shear stress; left out: "
              "5 + 220 (Dr - 0.26)^3; kept within 4..35");
-  v.quantity("Q", p.Q, Dim::none, positive, "critical-state line: Q of Bolton");
-  v.quantity("R", p.R, Dim::none, positive, "critical-state line: R of Bolton");
+  v.quantity("Q", p.Q, Dim::none, {.max = 20.0, .above = 0.0}, "critical-state line: Q of Bolton");
+  v.quantity("R", p.R, Dim::none, {.max = 20.0, .above = 0.0}, "critical-state line: R of Bolton");
   v.quantity("m", p.m, Dim::none, {.above = 0.0, .below = 0.5}, "radius of the yield surface");
-  v.quantity("Fsed_min", p.Fsed_min, Dim::none, positive,
+  v.quantity("Fsed_min", p.Fsed_min, Dim::none, {.max = 1.0, .above = 0.0},
              "smallest elastic-modulus factor after shaking; left out: 0.03 exp(2.6 Dr)");
-  v.quantity("p_sedo", p.p_sedo, Dim::stress, positive,
+  v.quantity("p_sedo", p.p_sedo, Dim::stress, {.max = 1e6, .above = 0.0},
              "mean stress up to which the modulus is lowered after shaking; left out: P_atm/5");
   v.quantity("max_strain_increment", p.max_strain_increment, Dim::none, {.min = 1e-8, .max = 1.0},
              "largest strain component of a sub-step; left out: 1e-4 in explicit steps of a mesh, "

@@ -67,6 +67,9 @@ void check_tractions(const FlowConfig& flow, const Soil& soil, Findings& found);
 void check_ground(const FlowConfig& flow, const Soil& soil, Findings& found);
 /// Gravity, friction, damping, the scheme, and when the flow rests or sleeps.
 void check_scheme(const FlowConfig& flow, const Soil& soil, Findings& found);
+/// Settings that another one makes idle.
+void check_inert(const FlowConfig& flow, Findings& found);
+void check_inert(const FemConfig& fem, Findings& found);
 /// The length for which softening strains hold, where soil of the transfer softens.
 void check_softening(const FlowConfig& flow, const MapConfig& map, const Soil& soil,
                      Findings& found);

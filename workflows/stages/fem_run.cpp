@@ -86,6 +86,7 @@ struct FemRun {
   static std::any preview(const Config& config, const Previews& in, Findings& found) {
     Preview p = merged(in);
     check_fem_soils(config, found);
+    check_inert(config, found);
     p.stop = config.stop_at_transfer;
     p.shakes = true;
     p.end = config.end ? config.end : p.motion_end;

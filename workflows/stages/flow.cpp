@@ -53,6 +53,7 @@ struct FlowStage {
   static std::any preview(const Config& config, const Previews& in, Findings& found) {
     Preview p = merged(in);
     p.flow = config;
+    check_inert(config, found);
     if (!p.map) return p;
     compare_cells(config, *p.map, found);
     if (!p.section || p.materials.empty()) return p;
