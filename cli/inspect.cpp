@@ -101,7 +101,9 @@ void add_inspect(CLI::App& app, Command& action) {
       // own; results only remember what was odd about where they come from.
       if (result["kind"] == "run") return 4;
       const std::string kind = result["kind"];
-      return kind == "recorder" || kind == "workflow" || kind == "terrain" ? 2 : 0;
+      const bool text =
+          kind == "recorder" || kind == "workflow" || kind == "terrain" || kind == "record";
+      return text ? 2 : 0;
     };
   });
 }

@@ -4,6 +4,7 @@
 #include "core/check.hpp"
 #include "core/files.hpp"
 #include "exchange/is_hdf5.hpp"
+#include "exchange/is_terrain.hpp"
 #include "exporters/cbgeo_csv.hpp"
 #include "exporters/opensees_recorders.hpp"
 #include "importers/mesh_import.hpp"
@@ -188,7 +189,9 @@ std::string kind_of(const fs::path& in) {
     throw FileError(fmt::format(
         "{}: does not begin as an HDF5 file (it is damaged, or of another kind) make it again",
         in.string()));
-  return in.extension() == ".msh" ? ".msh" : "record";
+  if (in.extension() == ".msh") return ".msh";
+  if (in.extension() == ".yaml" || in.extension() == ".yml") return "workflow";
+  return is_terrain(in) ? "terrain" : "record";
 }
 
 std::string target_of(const std::string& out) {

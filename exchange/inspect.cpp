@@ -3,6 +3,7 @@
 #include "exchange/inspect_record.hpp"
 #include "exchange/inspect_run.hpp"
 #include "exchange/is_hdf5.hpp"
+#include "exchange/is_terrain.hpp"
 #include "importers/recorder_text.hpp"
 #include "model/field_store.hpp"
 #include "model/history.hpp"
@@ -13,14 +14,12 @@
 #include "model/zone.hpp"
 #include "motion/measures.hpp"
 #include "mpm/walls/height_field.hpp"
-#include "mpm/walls/is_height_field.hpp"
 #include "workflows/engine/graph.hpp"
 #include "workflows/stages/stage_list.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -171,14 +170,6 @@ Json inspect_recorder(const fs::path& path, const std::function<void(double)>& t
         "the unit.");
   j["problems"] = s.problems;
   return j;
-}
-
-bool is_terrain(const fs::path& path) {
-  std::ifstream in(path);
-  std::string head(256, '\0');
-  in.read(head.data(), std::ssize(head));
-  head.resize(static_cast<std::size_t>(in.gcount()));
-  return mpm::is_height_field(head);
 }
 
 Json inspect_terrain(const fs::path& path) {

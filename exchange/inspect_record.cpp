@@ -50,7 +50,8 @@ Json inspect_record(const fs::path& path) {
     else
       j["peak"] = pga(record.motion);
     j["notes"] = record.notes;
-    j["problems"] = unit ? record.warnings : std::vector<std::string>{};
+    if (unit && !record.warnings.empty()) j["warnings"] = record.warnings;
+    j["problems"] = Json::array();
   } catch (const InputError& e) {
     j["problems"] = {e.what()};
   }

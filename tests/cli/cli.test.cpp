@@ -153,6 +153,11 @@ TEST_CASE("inspect ends with 2 for a text with problems", "[cli]") {
   scratch.write("stress.out", "");
   CHECK(call(scratch, "inspect w.yaml").code == 2);
   CHECK(call(scratch, "inspect stress.out").code == 2);
+  // A record that is odd is no problem of its text; one that cannot be read is.
+  scratch.write("odd.csv", "time (s), acc (g)\n0,10\n0.01,-20\n0.02,30\n");
+  CHECK(call(scratch, "inspect odd.csv").code == 0);
+  scratch.write("k.txt", "Sampling Freq(Hz) 100Hz\nScale Factor 1(gal)/2\n 1 2 3 4 5 6 7 8\n");
+  CHECK(call(scratch, "inspect k.txt").code == 2);
 }
 
 TEST_CASE("what cannot be looked at is said with the system's reason", "[cli]") {
@@ -345,7 +350,7 @@ TEST_CASE("a point is driven from its file", "[cli]") {
       {"material.pm4sand.emax=0.1", "cyclic-shear.yaml:6:12: material.pm4sand: emax"},
       {"simple_shear.stop_strain=1e-6", "cyclic-shear.yaml:9:3: simple_shear: strain_step: 5e-06"},
       {"stress.vertical=1e300 Pa", "cyclic-shear.yaml: simple shear: the stress is not finite"},
-      {"material.pm4sand.nb=1e300", "material.pm4sand: the state at the start has no"},
+      {"material.pm4sand.nb=1e300", "nb: '1e300' is out of range"},
       {"material.pm4sand.tolerance=1e-300", "tolerance: '1e-300' is out of range"},
       {"material.pm4sand.P_atm=101.3 Pa", "P_atm: '101.3 Pa' is out of range"}};
   for (const auto& [set, text] : places) {

@@ -83,6 +83,10 @@ TEST_CASE("an earthquake record is told from a recorder") {
   CHECK(silent["peak"] == 30.0);
   scratch.write("k.txt", "Sampling Freq(Hz) 100Hz\nScale Factor 1(gal)/2\n 1 2 3 4 5 6 7 8\n");
   CHECK_THAT(inspect(scratch / "k.txt")["problems"].dump(), Contains("K-NET"));
+  scratch.write("odd.csv", "time (s), acc (g)\n0,10\n0.01,-20\n0.02,30\n");
+  const Json odd = inspect(scratch / "odd.csv");
+  CHECK(odd["problems"].empty());
+  CHECK(odd["warnings"].size() == 1);
   scratch.write("r.out", "0.0 1\n0.1 3\n");
   CHECK(inspect(scratch / "r.out")["kind"] == "recorder");
   CHECK_THAT(inspect(scratch / "r.out")["notes"].dump(), Contains("flowslide motion"));
@@ -113,6 +117,11 @@ TEST_CASE("a conversion is chosen by both ends") {
                     Contains("no conversion") && Contains("history.h5 -> NAME.pvd"));
   convert({(scratch / "h.h5").string(), (scratch / "h.pvd").string(), {}});
   CHECK(std::filesystem::exists(scratch / "h/h_0000.vtu"));
+  scratch.write("v.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 5\n1 2\n3 4\n");
+  scratch.write("w.yaml", "schema: 1\n");
+  for (const auto& [in, kind] : {std::pair{"v.asc", "'terrain'"}, {"w.yaml", "'workflow'"}})
+    CHECK_THROWS_WITH(convert({(scratch / in).string(), (scratch / "x.csv").string(), {}}),
+                      Contains(kind) && Contains("no conversion"));
 }
 
 TEST_CASE("a zone becomes the table of its depths over time") {
