@@ -10,11 +10,11 @@ function(add_module name)
   compile_together(flowslide_${name})
 endfunction()
 
-# compile_together(target): its files 24 at a time, where FLOWSLIDE_UNITY says so: most of what one
+# compile_together(target): its files 36 at a time, where FLOWSLIDE_UNITY says so: most of what one
 # costs is reading headers (docs/adr/0019). style.names keeps their names apart, apart(file ...) keeps
 # files out of it.
 function(compile_together target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${FLOWSLIDE_UNITY} UNITY_BUILD_BATCH_SIZE 24)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${FLOWSLIDE_UNITY} UNITY_BUILD_BATCH_SIZE 36)
 endfunction()
 function(apart)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

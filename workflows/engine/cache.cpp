@@ -14,13 +14,13 @@ namespace fs = std::filesystem;
 namespace flowslide {
 namespace {
 
-struct Setting {
+struct CanonicalSetting {
   std::string path, value;
 };
 
 /// Lines "path = value" in their order; a line without " = " continues the value before it.
-std::vector<Setting> settings_of(const std::string& canonical) {
-  std::vector<Setting> settings;
+std::vector<CanonicalSetting> settings_of(const std::string& canonical) {
+  std::vector<CanonicalSetting> settings;
   std::istringstream in(canonical);
   for (std::string line; std::getline(in, line);) {
     const auto at = line.find(" = ");
@@ -32,9 +32,10 @@ std::vector<Setting> settings_of(const std::string& canonical) {
   return settings;
 }
 
-const Setting* find(const std::vector<Setting>& settings, const std::string& path) {
+const CanonicalSetting* find(const std::vector<CanonicalSetting>& settings,
+                             const std::string& path) {
   const auto it = std::find_if(settings.begin(), settings.end(),
-                               [&](const Setting& s) { return s.path == path; });
+                               [&](const CanonicalSetting& s) { return s.path == path; });
   return it == settings.end() ? nullptr : &*it;
 }
 
@@ -103,10 +104,11 @@ void look_at_result(Decision& decision, const fs::path& folder, const WorkflowSt
 }  // namespace
 
 std::string describe_changes(const std::string& before, const std::string& now) {
-  const std::vector<Setting> old_settings = settings_of(before), new_settings = settings_of(now);
+  const std::vector<CanonicalSetting> old_settings = settings_of(before),
+                                      new_settings = settings_of(now);
   std::vector<std::string> changes;
-  for (const Setting& s : new_settings) {
-    const Setting* old = find(old_settings, s.path);
+  for (const CanonicalSetting& s : new_settings) {
+    const CanonicalSetting* old = find(old_settings, s.path);
     if (!old)
       changes.push_back(fmt::format("{} = {} is new", s.path, brief(s.value)));
     else if (old->value != s.value && is_content_hash(s.value) && is_content_hash(old->value))
@@ -114,7 +116,7 @@ std::string describe_changes(const std::string& before, const std::string& now) 
     else if (old->value != s.value)
       changes.push_back(fmt::format("{} {} -> {}", s.path, brief(old->value), brief(s.value)));
   }
-  for (const Setting& s : old_settings)
+  for (const CanonicalSetting& s : old_settings)
     if (!find(new_settings, s.path)) changes.push_back(fmt::format("{} is gone", s.path));
   constexpr std::size_t kShown = 3;
   if (changes.size() > kShown) {
