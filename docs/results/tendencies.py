@@ -11,8 +11,8 @@ Numbers of `analysis.json`, in brackets their 95 % intervals from resampling the
 | tendency | here | holds |
 |---|---|---|"""
 
-WHY = ("What does not hold: dams that have liquefied to little depth slide in the coda, which damping decides "
-       "([theory](../theory/mochikoshi.md#the-dam-from-section-and-motion-alone)); and all shakings "
+WHY = ("What does not hold: dams that have liquefied to little depth slide in the coda, which damping "
+       "and the pulses of the motion decide ([theory](../theory/mochikoshi.md#which-damping)); and all shakings "
        "stand against the static model here, where the paper compares those deeper than 18 m (N16).")
 
 

@@ -121,7 +121,8 @@ TEST_CASE("a strong phase concentrates the energy and keeps the measures", "[mot
 TEST_CASE("the Ridgecrest preset has energy and velocity of a record at its peak", "[motion]") {
   const GroundMotion m = synthesize(preset_config("ridgecrest-china-lake", 0.3 * kGravity));
   // Ia/(PGA^2 D5-95) of ten records: 0.43 to 1.21, median 0.59 (docs/theory/ground-motion.md).
-  CHECK(arias_intensity(m) / (0.09 * significant_duration(m)) == Approx(0.59).epsilon(0.1));
+  CHECK(arias_intensity(m) / (0.09 * significant_duration(m)) > 0.50);
+  CHECK(arias_intensity(m) / (0.09 * significant_duration(m)) < 0.72);
   // The paper's Figure 13 has it between 20 and 30 cm/s at 0.3 g.
   CHECK(pgv(m) > 0.20);
   CHECK(pgv(m) < 0.30);

@@ -21,7 +21,7 @@ struct MotionPrepareStage {
   static constexpr std::string_view name = "motion.prepare";
   static constexpr std::string_view doc =
       "Reads or synthesises a ground motion, processes it and scales it.";
-  static constexpr int version = 4;
+  static constexpr int version = 5;
   static constexpr bool checkpoints = false;
   using Config = MotionConfig;
   struct Inputs {
