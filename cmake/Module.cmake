@@ -63,7 +63,12 @@ function(add_module_tests name)
   if(FLOWSLIDE_SANITIZE)
     target_compile_options(test_${name} PRIVATE -O0)  # instrumented assertions compile 2.4 times as fast
   endif()
-  catch_discover_tests(test_${name} TEST_PREFIX "${name}." PROPERTIES LABELS unit)
+  # Tests with the tag [bits] state what FLOWSLIDE_SAME_BITS promises.
+  set(spec "~[.]")
+  if(NOT FLOWSLIDE_SAME_BITS)
+    set(spec "~[.]~[bits]")
+  endif()
+  catch_discover_tests(test_${name} TEST_SPEC "${spec}" TEST_PREFIX "${name}." PROPERTIES LABELS unit)
 endfunction()
 
 if(FLOWSLIDE_TESTS)

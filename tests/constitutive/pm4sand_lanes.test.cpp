@@ -109,7 +109,8 @@ void compare(F&& widths) {
 
 }  // namespace
 
-TEST_CASE("PM4Sand has the same bits in any company and on any number of lanes", "[pm4sand]") {
+TEST_CASE("PM4Sand has the same bits in any company and on any number of lanes",
+          "[pm4sand][bits]") {
   SECTION("as elements of a mesh") {
     compare([](Points& p, const std::vector<std::size_t>& order) {
       std::size_t next = 0;

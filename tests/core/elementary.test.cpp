@@ -59,7 +59,8 @@ struct Arguments {
 
 // The references are those of the library in 64 bits, whose own error is a two-thousandth of a
 // unit.
-TEST_CASE("Exponentials and logarithms are accurate to one unit in the last place", "[core]") {
+TEST_CASE("Exponentials and logarithms are accurate to one unit in the last place",
+          "[core][bits]") {
   const auto exp = [](double x, double) { return flowslide::exp(x); };
   const auto exact_exp = [](double x, double) { return std::exp(static_cast<long double>(x)); };
   CHECK(largest(exp, exact_exp, [](Random& r) { return Arguments{r.between(-708, 709)}; }) < 1.0);
@@ -177,7 +178,7 @@ TEST_CASE("Elementary functions end where the numbers do", "[core]") {
   CHECK(std::isnan(flowslide::atan2(nan, 1.0)));
 }
 
-TEMPLATE_TEST_CASE_SIG("A lane has the bits of a double", "[core]", ((int N), N), 2,
+TEMPLATE_TEST_CASE_SIG("A lane has the bits of a double", "[core][bits]", ((int N), N), 2,
                        std::min(4, flowslide::kPackLanes), flowslide::kPackLanes) {
   const auto same = [](double a, double b) {
     return std::memcmp(&a, &b, sizeof a) == 0 || (std::isnan(a) && std::isnan(b));

@@ -35,7 +35,7 @@ bool same_state(const State& a, const State& b) {
 
 }  // namespace
 
-TEMPLATE_LIST_TEST_CASE("Elements follow their law, and energy is balanced", "[fem]",
+TEMPLATE_LIST_TEST_CASE("Elements follow their law, and energy is balanced", "[fem][bits]",
                         EveryShakingLaw) {
   using M = TestType;
   Solver s = column<M>();

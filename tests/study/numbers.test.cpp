@@ -127,7 +127,7 @@ TEST_CASE("Correlated inputs are, and the others are not", "[study]") {
       InputError);
 }
 
-TEST_CASE("Samples are the same bits everywhere", "[study]") {
+TEST_CASE("Samples are the same bits everywhere", "[study][bits]") {
   // What a first build has drawn: sameness over machines, no more; the tests above say what it is.
   const auto digest = [](Sampling method) {
     const Distribution d{.shape = Shape::lognormal, .mean = 25.0, .deviation = 5.0};

@@ -384,9 +384,26 @@ TEST_CASE("a single node decides the depth of single nodes only, and r_u above 1
   const auto named = std::ranges::find_if(
       zone.notes, [](const std::string& n) { return n.starts_with("r_u reaches 1.8 at node 35"); });
   CHECK(named != zone.notes.end());
-  const LiquefactionZone quiet = column.find(column_config());
-  CHECK(std::ranges::none_of(quiet.notes,
-                             [](const std::string& n) { return n.starts_with("r_u reaches"); }));
+  const auto silent = [](const LiquefactionZone& z) {
+    return std::ranges::none_of(z.notes,
+                                [](const std::string& n) { return n.starts_with("r_u reaches"); });
+  };
+  CHECK(silent(column.find(column_config())));
+
+  // What comes after the transfer does not enlarge the zone.
+  const auto later = folder / "later.h5";
+  FemHistoryWriter both(later, column.mesh, {{"sand", 1, 2000.0}, {"rock", 2, 1500.0}}, {});
+  both.set_gravity(calm.gravity());
+  both.append(calm.frame(0));
+  frame.time += 1.0;
+  both.append(frame);
+  both.finish();
+  ZoneConfig at_first = column_config();
+  at_first.transfer.when = TransferWhen::at;
+  at_first.transfer.at = calm.frame(0).time;
+  CHECK(silent(find_zone(FemHistory(later), at_first)));
+  at_first.transfer.at = frame.time;
+  CHECK_FALSE(silent(find_zone(FemHistory(later), at_first)));
 }
 
 TEST_CASE("Without windows the depth is that of the whole liquefiable soil", "[transfer]") {

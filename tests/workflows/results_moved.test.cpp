@@ -153,7 +153,7 @@ constexpr const char* kHowToRenew =
 
 }  // namespace
 
-TEST_CASE("results of a stage move only with its version", "[workflows]") {
+TEST_CASE("results of a stage move only with its version", "[workflows][bits]") {
   const std::string file = test::fixture("results/facts.json");
   const Json now = run_all_cases();
   Json kept = fs::exists(file) ? Json::parse(read_text_file(file)) : Json::object();

@@ -148,18 +148,19 @@ void add_depths(LiquefactionZone& zone, const ZoneRecorder& record, const ZonePa
 }
 
 /// Pore water carries no more than all of the weight above it, and little more in motion.
-void note_large_r_u(LiquefactionZone& zone, const ZoneRecorder& record) {
+void note_large_r_u(LiquefactionZone& zone, const QuadMesh& mesh) {
   constexpr double kPossible = 1.2;
-  const ZoneRecorder::LargestRu& r = record.largest_r_u();
-  if (!(r.value > kPossible)) return;
-  const auto n = static_cast<std::size_t>(r.node);
+  std::size_t n = 0;
+  double largest = kPossible;
+  for (std::size_t i = 0; i < zone.r_u_node.size(); ++i)
+    if (zone.r_u_node[i] > largest) largest = zone.r_u_node[n = i];
+  if (!(largest > kPossible)) return;
   zone.notes.push_back(fmt::format(
-      "r_u reaches {:.2g} at node {} ({:.6g}, {:.6g}) m at {:.4g} s: more than the soil above "
+      "r_u reaches {:.2g} at node {} ({:.6g}, {:.6g}) m by the transfer: more than the soil above "
       "weighs, noise of the pore pressure there or too small an initial stress. What is noise counts "
       "as liquefied all the same and can make the zone too large: compare `zone: liquefied` and "
       "`columns.neighbours`, and look at r_u in the report",
-      r.value, record.mesh().node_tags[n], record.mesh().nodes[n][0], record.mesh().nodes[n][1],
-      r.time));
+      largest, mesh.node_tags[n], mesh.nodes[n][0], mesh.nodes[n][1]));
 }
 
 /// Soil without water at rest has nothing that could liquefy it.
@@ -241,7 +242,7 @@ LiquefactionZone find_zone(const FemHistory& history, const ZoneConfig& config,
   zone.r_u_element = element_means(mesh, zone.r_u_node);
   zone.sigma_v0 = reference.sigma_v0;
   zone.notes = reference.notes;
-  note_large_r_u(zone, record);
+  note_large_r_u(zone, mesh);
   note_short_averages(zone, config.transfer.automatic);
   note_truncated(zone, record);
   const ZoneShape shape = zone_shape(config, mesh, parts.soil, zone.r_u_node);

@@ -178,8 +178,6 @@ void ZoneRecorder::append(const FemFrame& frame) {
     for (std::size_t k = 0; k < 2; ++k) positions[n][k] += frame.displacement[n][k];
   }
   const std::vector<double> r_u = r_u_at_nodes(mesh_, reference_, frame.pore_pressure, frame.time);
-  for (std::size_t n = 0; n < r_u.size(); ++n)
-    if (r_u[n] > largest_.value) largest_ = {r_u[n], frame.time, static_cast<std::int32_t>(n)};
   history_.time.push_back(frame.time);
   append_depths(config_.depth_coordinates == DepthCoordinates::original ? mesh_.nodes : positions,
                 r_u);

@@ -47,12 +47,6 @@ class ZoneRecorder {
   /// Mean squared velocity of the base from then to the end of the record, over that of the 90 %
   /// before; small where the record holds the whole motion, 1 where it breaks off.
   [[nodiscard]] double motion_left() const;
-  /// Largest r_u so far and where; node -1 without any.
-  struct LargestRu {
-    double value = 0.0, time = 0.0;
-    std::int32_t node = -1;
-  };
-  [[nodiscard]] const LargestRu& largest_r_u() const { return largest_; }
   /// Whether the choice is final: docs/theory/liquefaction-zone.md, "Stopping by the rule".
   [[nodiscard]] bool is_settled() const;
 
@@ -68,7 +62,6 @@ class ZoneRecorder {
   NodeNeighbours adjacent_;
   std::vector<SoilColumn> columns_;
   SlidingEnergy sliding_;
-  LargestRu largest_;
   ZoneHistory history_;
   std::vector<double> base_kinetic_;  ///< KineticEnergy::base of each frame
   std::vector<double> base_energy_;   ///< what the rule compares with
