@@ -1,6 +1,7 @@
 #include "exchange/inspect.hpp"
 
 #include "cli/command.hpp"
+#include "cli/terminal.hpp"
 #include "cli/usage.hpp"
 
 #include <algorithm>
