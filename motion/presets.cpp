@@ -17,7 +17,7 @@ namespace {
 // two motions, and were computed from the public record of the third. Seed, bandwidth and strong
 // phase are chosen so that PGV, MASI and energy are those of a record:
 // docs/theory/ground-motion.md, "Presets". Landers: main shaking of 5 s; Ridgecrest: strong phase
-// at 17 to 19 s.
+// at 17 to 19 s, and of fourteen such motions the one that meets the paper's depth at 0.3 g.
 constexpr std::array<MotionPreset, 10> kPresets{{
     {.name = "big-bear-deer-can",
      .record = "1992 Big Bear, Rancho Cucamonga - Deer Can 090",

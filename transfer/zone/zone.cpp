@@ -152,8 +152,11 @@ void note_large_r_u(LiquefactionZone& zone, const QuadMesh& mesh) {
   constexpr double kPossible = 1.2;
   std::size_t n = 0;
   double largest = kPossible;
-  for (std::size_t i = 0; i < zone.r_u_node.size(); ++i)
-    if (zone.r_u_node[i] > largest) largest = zone.r_u_node[n = i];
+  for (std::size_t i = 0; i < zone.r_u_node.size(); ++i) {
+    if (!(zone.r_u_node[i] > largest)) continue;  // NaN where there is none
+    largest = zone.r_u_node[i];
+    n = i;
+  }
   if (!(largest > kPossible)) return;
   zone.notes.push_back(fmt::format(
       "r_u reaches {:.2g} at node {} ({:.6g}, {:.6g}) m by the transfer: more than the soil above "
