@@ -358,6 +358,23 @@ TEST_CASE("a point is driven from its file", "[cli]") {
     CHECK((refused.code == 2 || refused.code == 3));
     CHECK_THAT(refused.err, Contains(text));
   }
+  const std::string find = "point " + file + quick + " --find material.pm4sand.hpo";
+  const Outcome found = call(scratch, find + " --cycles 4");
+  CHECK(found.code == 0);
+  CHECK_THAT(found.out, Contains("3 % of shear strain after 4 cycles") &&
+                            Catch::Matches("(.|\\n)*cycles to 3 % strain +4.0\\n(.|\\n)*"));
+  const std::vector<std::pair<std::string, std::string>> cannot{
+      {find, "--cycles"},
+      {find + " --cycles 1e9", "cycles from 0.5"},
+      {"point " + file + " --find material.pm4sand.hp --cycles 4", "no plain number"},
+      {"point " + file + " --find stress.vertical --cycles 4", "no plain number"},
+      {"point " + file + " --set simple_shear.csr=null --find material.pm4sand.hpo --cycles 4",
+       "turns at a shear stress"}};
+  for (const auto& [words, text] : cannot) {
+    const Outcome refused = call(scratch, words);
+    CHECK(refused.code == 2);
+    CHECK_THAT(refused.err, Contains(text));
+  }
   const Outcome coarse = call(scratch, "point " + file + " --set simple_shear.csr=0.001");
   CHECK(coarse.code == 0);
   CHECK_THAT(coarse.err, Contains("warning: simple_shear: shearing turned"));
