@@ -18,7 +18,7 @@ namespace {
 /// second from 12 s on: below 0.97 after 15 s.
 struct Record {
   ZoneHistory h;
-  std::vector<double> base;
+  TransferEvidence evidence;
   explicit Record(double failure, double q_start = 12.0) {
     h.window_names = {"crest", "pond"};
     h.depth.resize(2);
@@ -27,7 +27,8 @@ struct Record {
       const double t = 0.1 * i;
       h.time.push_back(t);
       const double shaking = t < 12.0 ? 10.0 * std::exp(-0.5 * (t - 10.0) * (t - 10.0)) : 0.0;
-      base.push_back(shaking);
+      evidence.base_energy.push_back(shaking);
+      evidence.yielded.push_back(0.0);
       const double slide = t > failure ? 20.0 * (t - failure) : 0.0;
       h.kinetic_energy_relative.push_back(0.5 * shaking + slide);
       h.kinetic_energy.push_back(1.5 * shaking + slide);
@@ -43,19 +44,18 @@ struct Record {
     }
   }
   [[nodiscard]] TransferChoice choose(const TransferTimeConfig& config = {}) const {
-    return choose_transfer(config, h, base);
+    return choose_transfer(config, h, evidence);
   }
   [[nodiscard]] bool settled(const TransferTimeConfig& config = {}) const {
-    return is_settled(config, h, base);
+    return is_settled(config, h, evidence);
   }
   /// Its first `n` frames.
   [[nodiscard]] Record first(std::size_t n) const {
     Record r = *this;
-    r.base.resize(n);
     for (std::vector<double>* x :
          {&r.h.time, &r.h.kinetic_energy, &r.h.kinetic_energy_relative, &r.h.sliding_energy,
           &r.h.distortion_gauss, &r.h.distortion_centre, &r.h.depth[0], &r.h.depth[1],
-          &r.h.depth_max[0], &r.h.depth_max[1]})
+          &r.h.depth_max[0], &r.h.depth_max[1], &r.evidence.base_energy, &r.evidence.yielded})
       x->resize(n);
     return r;
   }
@@ -74,7 +74,7 @@ TEST_CASE("an onset is where the energy leaves its envelope, not where it has ou
           "[transfer]") {
   // the envelope is 5 J/m; the slide, 20 J/m per second from 13 s on, passes it and its double
   const Record record(13.0);
-  const std::optional<EnergyOnset> onset = find_onset({}, record.h, record.base);
+  const std::optional<EnergyOnset> onset = find_onset({}, record.h, record.evidence);
   REQUIRE(onset);
   CHECK(record.h.time[onset->begin] == Approx(13.25).margin(0.15));
   CHECK(record.h.time[onset->grown] == Approx(13.5).margin(0.15));
@@ -86,7 +86,7 @@ TEST_CASE("an onset is where the energy leaves its envelope, not where it has ou
 TEST_CASE("shaking alone is no failure, however strong it becomes after first liquefaction",
           "[transfer]") {
   const Record record(1e9, 1e9);
-  CHECK_FALSE(find_onset({}, record.h, record.base));
+  CHECK_FALSE(find_onset({}, record.h, record.evidence));
   const TransferChoice choice = record.choose();
   CHECK(choice.frame == 300);
   CHECK(choice.time == Approx(30.0));
@@ -98,7 +98,7 @@ TEST_CASE("the onset lies soon after the slide begins", "[transfer]") {
   for (const EnergyFrame energy :
        {EnergyFrame::sliding, EnergyFrame::relative, EnergyFrame::absolute}) {
     const Record record(11.0);
-    const auto onset = find_onset({.energy = energy}, record.h, record.base);
+    const auto onset = find_onset({.energy = energy}, record.h, record.evidence);
     REQUIRE(onset);
     // The envelope is at most 15 J/m, the slide has 20 J/m/s: twice the envelope is passed within
     // 2 s, the trailing mean of 1 s included.
@@ -111,32 +111,52 @@ TEST_CASE("the onset lies soon after the slide begins", "[transfer]") {
 TEST_CASE("a record that ends in the rise says so", "[transfer]") {
   // The slide passes twice the envelope about 2 s after it begins; 1 s is left, 2 s are asked for.
   const Record record(28.0, 1e9);
-  CHECK_FALSE(find_onset({}, record.h, record.base));
-  const auto rising = rising_at_end({}, record.h, record.base);
+  CHECK_FALSE(find_onset({}, record.h, record.evidence));
+  const auto rising = rising_at_end({}, record.h, record.evidence);
   REQUIRE(rising);
   CHECK(record.h.time[rising->grown] > 28.0);
   const TransferChoice choice = record.choose();
   CHECK(choice.frame == 300);
   CHECK_THAT(choice.reason, Catch::Contains("to the end of the record, too short a time") &&
                                 Catch::Contains("frame 301 of 301"));
-  CHECK_FALSE(rising_at_end({}, Record(1e9, 1e9).h, record.base));
+  CHECK_FALSE(rising_at_end({}, Record(1e9, 1e9).h, record.evidence));
 }
 
 TEST_CASE("a short burst is not sustained growth", "[transfer]") {
   Record record(1e9, 1e9);
   for (std::size_t i = 150; i < 153; ++i) record.h.kinetic_energy_relative[i] = 200.0;
-  CHECK_FALSE(find_onset({}, record.h, record.base));
+  CHECK_FALSE(find_onset({}, record.h, record.evidence));
 }
 
-TEST_CASE("without liquefaction there is no failure", "[transfer]") {
-  Record record(11.0);
-  for (auto& depth : record.h.depth) std::ranges::fill(depth, 0.0);
-  CHECK_FALSE(find_onset({}, record.h, record.base));
+TEST_CASE("a slide through soil that has not liquefied is a failure once soil has yielded",
+          "[transfer]") {
+  Record record(13.0);
+  for (auto* table : {&record.h.depth, &record.h.depth_max})
+    for (auto& depth : *table) std::ranges::fill(depth, 0.0);
+  // control: nothing liquefied, nothing yielded
+  CHECK_FALSE(find_onset({}, record.h, record.evidence));
+  // a single element at an edge is no slip surface
+  for (std::size_t i = 20; i <= 300; ++i) record.evidence.yielded[i] = 0.0005;
+  CHECK_FALSE(find_onset({}, record.h, record.evidence));
+  for (std::size_t i = 125; i <= 300; ++i) record.evidence.yielded[i] = 0.02;
+  const auto onset = find_onset({}, record.h, record.evidence);
+  REQUIRE(onset);
+  CHECK(record.h.time[onset->begin] == Approx(13.25).margin(0.15));
+  const TransferChoice choice = record.choose();
+  CHECK_THAT(choice.reason, Catch::Contains("no window has liquefied") &&
+                                Catch::Contains("0.5 of the way from the later"));
+  CHECK(choice.time == Approx(0.5 * (record.h.time[onset->grown] + 15.05)).margin(0.11));
+}
+
+TEST_CASE("yielding without a slide is no failure", "[transfer]") {
+  Record record(1e9, 1e9);
+  for (std::size_t i = 60; i <= 300; ++i) record.evidence.yielded[i] = 0.1;
+  CHECK_FALSE(find_onset({}, record.h, record.evidence));
 }
 
 TEST_CASE("the transfer lies halfway from full development to excessive distortion", "[transfer]") {
   const Record record(11.0);
-  const double onset = record.h.time[find_onset({}, record.h, record.base)->grown];
+  const double onset = record.h.time[find_onset({}, record.h, record.evidence)->grown];
   const TransferChoice choice = record.choose();
   // Q < 0.97 from 15.1 s on (15.0 s holds 0.97 up to rounding).
   CHECK(choice.time == Approx(0.5 * (onset + 15.05)).margin(0.11));

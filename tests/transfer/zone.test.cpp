@@ -3,6 +3,7 @@
 #include "core/check.hpp"
 #include "tests/support/scratch.hpp"
 #include "tests/transfer/zone_grid.hpp"
+#include "transfer/zone/zone_record.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -236,6 +237,33 @@ TEST_CASE("energy and distortion of a rigid translation", "[transfer]") {
   CHECK(zone.history.kinetic_energy_relative[0] == Approx(0.0).margin(1e-9));
   CHECK(zone.history.distortion_gauss[0] == 1.0);
   CHECK(zone.history.distortion_centre[0] == 1.0);
+}
+
+TEST_CASE("a slide on yielded soil is found without liquefaction; strain of gravity is no yielding",
+          "[transfer]") {
+  const FemHistory history = Column({0.0}).history();
+  ZoneConfig config = column_config();
+  config.transfer.when = TransferWhen::automatic;
+  FemFrame gravity = history.gravity();
+  // recorders that ran through the gravity stage: 4.5 % of consolidation everywhere
+  for (auto& strain : gravity.strain) strain[1] = -0.045;
+  for (const bool yields : {true, false}) {
+    ZoneRecorder recorder(history.mesh(), history.materials(), gravity, config);
+    for (int i = 1; i <= 300; ++i) {
+      FemFrame frame = gravity;
+      frame.time = 0.1 * i;
+      const double shaken = frame.time < 15.0 ? 0.05 * std::sin(4.0 * frame.time) : 0.0;
+      const double slid = 0.05 * std::pow(std::max(0.0, frame.time - 15.0), 2);
+      for (std::size_t n = 0; n < frame.displacement.size(); ++n)
+        frame.displacement[n] = {shaken + (history.mesh().nodes[n][1] > 5.5 ? slid : 0.0), 0.0};
+      if (yields && frame.time > 12.0)  // the row between 5 and 6 m
+        for (std::size_t e = 50; e < 60; ++e) frame.strain[e][3] = 0.06;
+      recorder.append(frame);
+    }
+    const auto onset = recorder.onset();
+    CHECK(onset.has_value() == yields);
+    if (onset) CHECK(recorder.history().time[*onset] == Approx(15.5).margin(0.8));
+  }
 }
 
 TEST_CASE("the box leaves columns out of zone and energy", "[transfer]") {

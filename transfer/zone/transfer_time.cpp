@@ -51,7 +51,7 @@ TransferChoice at_sample(const ZoneHistory& h, std::size_t i, const std::string&
 }
 
 TransferChoice automatic(const AutomaticTransfer& rule, const ZoneHistory& h,
-                         std::span<const double> base_energy) {
+                         const TransferEvidence& evidence) {
   const std::size_t n = h.time.size();
   const std::size_t usable = undistorted_samples(rule, h);
   const std::string_view point = kJacobianPoints[static_cast<std::size_t>(rule.jacobian)];
@@ -62,9 +62,9 @@ TransferChoice automatic(const AutomaticTransfer& rule, const ZoneHistory& h,
   const std::string distorted = usable < n ? fmt::format("Q ({}) falls below {} at {:.4g} s", point,
                                                          rule.distortion_limit, h.time[usable])
                                            : std::string();
-  const std::optional<EnergyOnset> onset = find_onset(rule, h, base_energy);
+  const std::optional<EnergyOnset> onset = find_onset(rule, h, evidence);
   if (!onset || onset->grown >= usable) {
-    const std::optional<EnergyOnset> rising = rising_at_end(rule, h, base_energy);
+    const std::optional<EnergyOnset> rising = rising_at_end(rule, h, evidence);
     if (usable == n && rising) {
       return at_sample(
           h, n - 1,
@@ -84,14 +84,16 @@ TransferChoice automatic(const AutomaticTransfer& rule, const ZoneHistory& h,
                     distorted));
   }
   const Development full = full_development(rule, h, usable);
+  const std::string developed =
+      full.window.empty() ? "no window has liquefied"
+                          : fmt::format("liquefaction is fully developed at {:.4g} s ({} {:.3g} m)",
+                                        h.time[full.sample], full.window, full.depth);
   const std::size_t begin = std::max(onset->grown, full.sample);
   const std::string failure = fmt::format(
       "the {} kinetic energy leaves its pre-failure envelope at {:.4g} s and exceeds {:g} times it "
-      "from {:.4g} s on ({:.3g} J/m against {:.3g} J/m), liquefaction is fully developed at {:.4g} s "
-      "({} {:.3g} m)",
+      "from {:.4g} s on ({:.3g} J/m against {:.3g} J/m), {}",
       kEnergyFrames[static_cast<std::size_t>(rule.energy)], h.time[onset->begin], rule.growth,
-      h.time[onset->grown], onset->energy, onset->envelope, h.time[full.sample], full.window,
-      full.depth);
+      h.time[onset->grown], onset->energy, onset->envelope, developed);
   if (usable == n) {
     return at_sample(
         h, n - 1,
@@ -122,7 +124,7 @@ void check(const TransferTimeConfig& c) {
 }
 
 TransferChoice choose_transfer(const TransferTimeConfig& config, const ZoneHistory& h,
-                               std::span<const double> base_energy) {
+                               const TransferEvidence& evidence) {
   if (config.when == TransferWhen::gravity) {
     return {-1, 0.0, "the gravity state is transferred, as asked for"};
   }
@@ -142,18 +144,18 @@ TransferChoice choose_transfer(const TransferTimeConfig& config, const ZoneHisto
         t, h.time.front(), h.time.back());
     return at_sample(h, nearest_sample(h.time, t), fmt::format("{} s, as asked for", t));
   }
-  return automatic(config.automatic, h, base_energy);
+  return automatic(config.automatic, h, evidence);
 }
 
 bool is_settled(const TransferTimeConfig& config, const ZoneHistory& h,
-                std::span<const double> base_energy) {
+                const TransferEvidence& evidence) {
   if (config.when == TransferWhen::gravity) return true;
   if (config.when == TransferWhen::end || h.time.empty()) return false;
   if (config.when == TransferWhen::at) return h.time.back() >= config.at.value();
   const AutomaticTransfer& rule = config.automatic;
   const std::size_t usable = undistorted_samples(rule, h);
   if (usable == h.time.size()) return false;
-  if (find_onset(rule, h, base_energy)) return true;
+  if (find_onset(rule, h, evidence)) return true;
   return h.time[usable] + rule.smoothing + rule.sustain <= h.time.back();
 }
 

@@ -51,17 +51,28 @@ struct TransferChoice {
   std::string reason;  ///< one sentence
 };
 
-/// Applies the rule to the recorded scalars. `base_energy` is that of the base in each frame:
-/// SlidingEnergy::Values::base with `energy: sliding`, else KineticEnergy::base.
+/// Deviatoric strain of the shaking from which soil counts as yielded: what has undrained or dense
+/// sand past its peak, 5 % in simple shear [-].
+inline constexpr double kYieldStrain = 0.03;
+
+/// What the rule compares the energy of the section with, per frame.
+struct TransferEvidence {
+  /// SlidingEnergy::Values::base with `energy: sliding`, else KineticEnergy::base [J/m]
+  std::vector<double> base_energy{};
+  /// Share of the section's mass that has yielded [-]
+  std::vector<double> yielded{};
+};
+
+/// Applies the rule to the recorded scalars.
 /// Throws InputError if the history has no frames or the time is outside the record.
 TransferChoice choose_transfer(const TransferTimeConfig& config, const ZoneHistory& history,
-                               std::span<const double> base_energy);
+                               const TransferEvidence& evidence);
 
 /// Whether no frames that follow can change the choice; with `when: automatic` that is so when Q
 /// has fallen below its limit and it is known whether the energy had risen before. Never with
 /// `when: end`, nor while the choice is the last frame for want of distortion.
 bool is_settled(const TransferTimeConfig& config, const ZoneHistory& history,
-                std::span<const double> base_energy);
+                const TransferEvidence& evidence);
 
 /// Mean of the samples in (t_i - length, t_i], for each i.
 std::vector<double> trailing_mean(std::span<const double> time, std::span<const double> value,
@@ -75,12 +86,12 @@ struct EnergyOnset {
   double envelope = 0.0;  ///< then [J/m]
 };
 std::optional<EnergyOnset> find_onset(const AutomaticTransfer& rule, const ZoneHistory& history,
-                                      std::span<const double> base_energy);
+                                      const TransferEvidence& evidence);
 
 /// Where the energy rises above `growth` times the envelope to stay there until the record ends,
 /// for however short a time.
 std::optional<EnergyOnset> rising_at_end(const AutomaticTransfer& rule, const ZoneHistory& history,
-                                         std::span<const double> base_energy);
+                                         const TransferEvidence& evidence);
 
 template <>
 struct Schema<AutomaticTransfer> {

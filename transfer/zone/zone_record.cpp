@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace flowslide {
 namespace {
@@ -119,6 +120,8 @@ ZoneRecorder::ZoneRecorder(const QuadMesh& mesh, const std::vector<HistoryMateri
       mass_(element_masses(mesh, parts_.section, element_densities(mesh, materials))),
       adjacent_(soil_neighbours(mesh, parts_.soil)),
       columns_(soil_columns(mesh, parts_.soil, config.columns.width)),
+      section_mass_(std::accumulate(mass_.begin(), mass_.end(), 0.0)),
+      strain_at_rest_(gravity.strain),
       sliding_(config.transfer.automatic.smoothing) {
   config_.windows = windows_or_all(config);
   reference_ = r_u_reference(mesh_, gravity, parts_.in_soil, config_.r_u);
@@ -171,6 +174,19 @@ void ZoneRecorder::append_depths(std::span<const Vec2> positions, std::span<cons
   }
 }
 
+/// Strain of the shaking alone: recorders of other programs may hold that of gravity too.
+double ZoneRecorder::yielded_share(std::span<const StrainIncrement<2>> strain) const {
+  double yielded = 0.0;
+  for (std::size_t i = 0; i < parts_.section.size(); ++i) {
+    const auto e = static_cast<std::size_t>(parts_.section[i]);
+    StrainIncrement<2> since = strain[e];
+    for (int k = 0; k < kVoigt<2>; ++k)
+      if (std::isfinite(strain_at_rest_[e][k])) since[k] -= strain_at_rest_[e][k];
+    if (deviatoric_strain(since) > kYieldStrain) yielded += mass_[i];
+  }
+  return yielded / section_mass_;
+}
+
 void ZoneRecorder::append(const FemFrame& frame) {
   check_finite(frame);
   std::vector<Vec2> positions = mesh_.nodes;
@@ -193,12 +209,13 @@ void ZoneRecorder::append(const FemFrame& frame) {
                                                         frame.displacement, parts_.base_nodes);
   history_.sliding_energy.push_back(sliding.section);
   base_kinetic_.push_back(energy.base);
-  base_energy_.push_back(config_.transfer.automatic.energy == EnergyFrame::sliding ? sliding.base
-                                                                                   : energy.base);
+  const bool by_sliding = config_.transfer.automatic.energy == EnergyFrame::sliding;
+  evidence_.base_energy.push_back(by_sliding ? sliding.base : energy.base);
+  evidence_.yielded.push_back(yielded_share(frame.strain));
 }
 
 std::optional<std::size_t> ZoneRecorder::onset() const {
-  const auto found = find_onset(config_.transfer.automatic, history_, base_energy_);
+  const auto found = find_onset(config_.transfer.automatic, history_, evidence_);
   return found ? std::optional(found->begin) : std::nullopt;
 }
 
@@ -230,11 +247,11 @@ double ZoneRecorder::motion_left() const {
 }
 
 TransferChoice ZoneRecorder::choose() const {
-  return choose_transfer(config_.transfer, history_, base_energy_);
+  return choose_transfer(config_.transfer, history_, evidence_);
 }
 
 bool ZoneRecorder::is_settled() const {
-  return flowslide::is_settled(config_.transfer, history_, base_energy_);
+  return flowslide::is_settled(config_.transfer, history_, evidence_);
 }
 
 }  // namespace flowslide

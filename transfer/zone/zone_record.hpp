@@ -53,6 +53,7 @@ class ZoneRecorder {
  private:
   void check_finite(const FemFrame& frame) const;
   [[nodiscard]] std::vector<double> base_motion() const;  ///< integral of base_kinetic_
+  [[nodiscard]] double yielded_share(std::span<const StrainIncrement<2>> strain) const;
   void append_depths(std::span<const Vec2> positions, std::span<const double> r_u);
   QuadMesh mesh_;
   TransferRuleConfig config_;
@@ -61,10 +62,12 @@ class ZoneRecorder {
   std::vector<double> mass_;  ///< of the elements of the section [kg/m]
   NodeNeighbours adjacent_;
   std::vector<SoilColumn> columns_;
+  double section_mass_;  ///< sum of mass_ [kg/m]
+  std::vector<StrainIncrement<2>> strain_at_rest_;
   SlidingEnergy sliding_;
   ZoneHistory history_;
   std::vector<double> base_kinetic_;  ///< KineticEnergy::base of each frame
-  std::vector<double> base_energy_;   ///< what the rule compares with
+  TransferEvidence evidence_;
 };
 
 }  // namespace flowslide

@@ -61,7 +61,7 @@ struct FemRun {
   static constexpr std::string_view name = "fem.run";
   static constexpr std::string_view doc =
       "Gravity and shaking of a saturated section, with the finite element method.";
-  static constexpr int version = 6;
+  static constexpr int version = 7;
   static constexpr bool checkpoints = true;
   using Config = FemRunConfig;
   struct Inputs {

@@ -53,7 +53,7 @@ void add_depths(nlohmann::ordered_json& facts, const LiquefactionZone& zone, std
 struct ZoneStage {
   static constexpr std::string_view name = "transfer.zone";
   static constexpr std::string_view doc = "Finds the liquefied zone and the time of transfer.";
-  static constexpr int version = 8;
+  static constexpr int version = 9;
   static constexpr bool checkpoints = false;
   using Config = ZoneConfig;
   struct Inputs {
