@@ -148,6 +148,11 @@ void check(const MuI::Params& p) {
            "mu_i: mu_limit {} is below mu_static {} (faster flow would be weaker, which has no "
            "unique answer) swap them?",
            p.mu_limit, p.mu_static);
+  validate(p.mu_static < 0.95 || p.lode_dependence == 0.0,
+           "mu_i: mu_static is {} (in plane flow it is the sine of the angle of friction, and the "
+           "72 degrees of 0.95 are out of reach of grains) take the tangent of an angle of repose, "
+           "or lode_dependence: 0",
+           p.mu_static);
 }
 
 LawParameters to_parameters(const AnyMaterial& material) {

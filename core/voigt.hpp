@@ -44,6 +44,18 @@ constexpr T j2(const Stress<Dim, T>& s) {
   return sum;
 }
 
+/// Third deviatoric invariant J3 = det s [Pa3].
+template <int Dim, class T>
+constexpr T j3(const Stress<Dim, T>& sigma) {
+  const T m = mean_stress(sigma), x = sigma[0] - m, y = sigma[1] - m, z = sigma[2] - m;
+  if constexpr (Dim == 2) {
+    return z * (x * y - sigma[3] * sigma[3]);
+  } else {
+    const T xy = sigma[3], yz = sigma[4], zx = sigma[5];
+    return x * y * z + 2.0 * xy * yz * zx - x * yz * yz - y * zx * zx - z * xy * xy;
+  }
+}
+
 /// Equivalent shear stress q = sqrt(3 J2) [Pa].
 template <int Dim>
 double equivalent_shear(const Stress<Dim>& s) {

@@ -92,6 +92,53 @@ TEST_CASE("Granular flow settles on mu(I)", "[constitutive]") {
   CHECK(mu > 1.0001 * p.mu_static);
 }
 
+TEST_CASE("Granular flow beside plane flow is as strong as Matsuoka and Nakai have it",
+          "[constitutive]") {
+  auto p = sample_params<MuI>();
+  p.mu_static = p.mu_limit = GENERATE(0.3, 0.577, 0.9);
+  const double k = (9.0 - 3.0 * p.mu_static * p.mu_static) / (1.0 - p.mu_static * p.mu_static);
+  const auto determinant = [](const Stress<3>& s) {  // order xx, yy, zz, xy, yz, zx
+    return s[0] * (s[1] * s[2] - s[4] * s[4]) - s[3] * (s[3] * s[2] - s[4] * s[5]) +
+           s[5] * (s[3] * s[4] - s[1] * s[5]);
+  };
+  // triaxial compression, extension, and something between
+  const auto shape = GENERATE(Stress<3>{{1.0, 1.0, -2.0}}, Stress<3>{{-1.0, -1.0, 2.0}},
+                              Stress<3>{{1.0, 0.2, -1.2, 0.3, -0.4, 0.1}});
+  for (const double w : {1.0, 0.0}) {
+    p.lode_dependence = w;
+    const auto c = MuI::constants(p, 1.0);
+    MuI::State state;
+    Stress<3> s{{-10e3, -10e3, -10e3}};
+    for (int i = 0; i < 200; ++i) {
+      StrainIncrement<3> de;
+      for (int j = 0; j < 6; ++j) de[j] = 1e-4 * shape[j] * (j < 3 ? 1.0 : 2.0);
+      s = update<MuI, 3>(c, state, s, de, 1e-4).stress;
+    }
+    const double mean = -mean_stress(s), second = j2(s);
+    CHECK(mean == Approx(10e3).epsilon(1e-12));
+    if (w == 0.0) {  // control: the circle, as Jop et al. (2006) have it
+      CHECK(std::sqrt(second) == Approx(p.mu_static * mean).epsilon(1e-9));
+    } else {  // I1 I2 = k I3
+      const double i2 = 3.0 * mean * mean - second;
+      CHECK(3.0 * mean * i2 == Approx(-k * determinant(s)).epsilon(1e-8));
+    }
+  }
+}
+
+TEST_CASE("Grains with hardly any friction keep what little they have", "[constitutive]") {
+  auto p = sample_params<MuI>();
+  for (const double mu : {1e-9, 1e-6, 1e-3}) {
+    p.mu_static = mu;
+    const auto c = MuI::constants(p, 1.0);
+    CHECK(MuI::lode_factor(c, 1.0, -0.3849) == Approx(1.0).margin(mu));
+  }
+  p.mu_static = 0.577;
+  const auto c = MuI::constants(p, 1.0);
+  CHECK(MuI::lode_factor(c, 1.0, -MuI::kMostLode) == Approx(1.264).epsilon(1e-3));
+  CHECK(MuI::lode_factor(c, 1.0, MuI::kMostLode) == Approx(0.890).epsilon(1e-3));
+  CHECK(MuI::lode_factor(c, 0.0, 0.0) == 1.0);
+}
+
 TEST_CASE("Grains that have parted carry nothing, sheared or pressed for a step",
           "[constitutive]") {
   const auto c = MuI::constants(sample_params<MuI>(), 1.0);

@@ -93,7 +93,8 @@ double violation(const typename M::Constants& c, const typename M::State& state,
   } else if constexpr (std::is_same_v<M, ResidualStrength>) {
     return std::max(tau - M::present_strength(c, state), mean - c.tension_cutoff) / kStress;
   } else if constexpr (std::is_same_v<M, MuI>) {
-    return std::max(tau + c.mu_limit * mean, mean) / kStress;
+    const double r = M::lode_factor(c, tau, j3(s));
+    return std::max(tau + c.mu_limit * r * mean, mean) / kStress;
   } else if constexpr (requires { M::rate_dependent; }) {
     return (mean - c.tension_cutoff) / kStress;
   } else {

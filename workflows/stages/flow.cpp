@@ -38,7 +38,7 @@ void warn_of_wall(const FlowConfig& c, double front, std::vector<std::string>& w
 struct FlowStage {
   static constexpr std::string_view name = "mpm.run";
   static constexpr std::string_view doc = "The runout, with the material point method.";
-  static constexpr int version = 8;
+  static constexpr int version = 9;
   static constexpr bool checkpoints = true;
   using Config = FlowConfig;
   struct Inputs {

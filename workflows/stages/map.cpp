@@ -13,7 +13,7 @@ namespace {
 struct MapStage {
   static constexpr std::string_view name = "transfer.map";
   static constexpr std::string_view doc = "Carries the state to material points, with an audit.";
-  static constexpr int version = 4;
+  static constexpr int version = 5;
   static constexpr bool checkpoints = false;
   using Config = MapConfig;
   struct Inputs {
