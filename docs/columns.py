@@ -64,11 +64,11 @@ def update(text, rows, kind):
     return f"{text[:found.start()]}<!-- {name} -->\n{body}\n<!-- end {name} -->{text[found.end():]}"
 
 
-def points(text, case, quantity):
+def points(text, case, pattern):
     found = []
     for row in block(text, DRY)[1].splitlines()[2:]:
         cells = [c.strip() for c in row.split("|")]
-        match = re.fullmatch(rf"a([0-9.]+)_{quantity}", cells[2])
+        match = re.fullmatch(pattern, cells[2])
         if cells[1] == case and match:
             found.append((float(match[1]), float(cells[4])))
     return sorted(found)
@@ -98,11 +98,12 @@ def draw(text):
             ("channel", "s", "channel, beads, mu(I)"),
             ("round", "^", "round, mu(I)"),
         ):
-            found = points(text, case, quantity)
+            measure = "edge" if quantity == "front" else quantity
+            found = points(text, case, rf"a([0-9.]+)_{measure}")
             if found:
                 axis.plot(*zip(*found), marker, color="k", mfc="none", ms=5, label=label)
-        found = points(text, "plane", "coulomb_plane_" + quantity)
-        if found:
+        found = points(text, "plane", r"control_a([0-9.]+)_coulomb_plane")
+        if found and quantity == "front":
             axis.plot(*zip(*found), "x", color="0.5", label="plane, Coulomb, asin(tan)")
         axis.set(xscale="log", yscale="log", xlabel="height / length", title=quantity)
         axis.set_xticks([0.5, 1, 2, 5], ["0.5", "1", "2", "5"])

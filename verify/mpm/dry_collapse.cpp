@@ -4,6 +4,7 @@
 #include "verify/mpm/trial.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace flowslide::mpm {
@@ -23,6 +24,7 @@ MaterialSpec grains(const DryColumn& c, double height) {
                                           {"mu_limit", c.friction + c.rise},
                                           {"inertial_number", c.inertial},
                                           {"grain_size", c.grain},
+                                          {"lode_dependence", c.lode_dependence},
                                           {"grain_density", kGrains}});
     return material("mu_i", v);
   }
@@ -73,28 +75,25 @@ double kinetic(const Points<Dim>& p) {
   return sum;
 }
 
-/// Where, seen from the front, strips of a twentieth of `scale` hold a layer of `thickness`, with a
-/// straight line between their middles. `places` are distances from the wall or axis.
-double edge(const std::vector<Place>& places, const DryColumn& c, double scale, double thickness) {
-  const double strip = 0.05 * scale;
-  std::vector<double> layer(2000, 0.0);
-  for (const Place& p : places) {
-    const auto k = static_cast<std::size_t>(p.at / strip);
-    if (k >= layer.size()) continue;
-    const double ring = 0.25 * kPi * strip * strip * (2.0 * static_cast<double>(k) + 1.0);
-    const double area = c.shape == Shape::round     ? ring
-                        : c.shape == Shape::channel ? strip * c.width
-                                                    : strip;
-    layer[k] += p.mass / (kSandDensity * area);
-  }
-  std::size_t last = layer.size() - 2;
-  while (last > 0 && layer[last] < thickness) --last;
-  const double over = layer[last] - thickness, drop = layer[last] - layer[last + 1];
-  return strip * (static_cast<double>(last) + 0.5 + (drop > 0.0 ? over / drop : 0.0));
+/// Where a deposit that thins evenly is as thick as a grain, below which there is none. Of a wedge
+/// the mass beyond x goes with (tip - x)^2, so a quarter of it lies in half the distance: that
+/// gives the tip, and the mass the slope. docs/theory/verification-mpm.md, Dry columns
+double edge(std::vector<Place>& places, const DryColumn& c) {
+  constexpr std::array<double, 2> kShares{0.005, 0.02};
+  std::array<double, 2> at{};
+  places_beyond(places, kShares, at);
+  double mass = 0.0;
+  for (const Place& p : places) mass += p.mass;
+  const double tip = 2.0 * at[0] - at[1], distance = tip - at[0];
+  const double breadth = c.shape == Shape::round     ? 0.5 * kPi * tip  // a quarter of the circle
+                         : c.shape == Shape::channel ? c.width
+                                                     : 1.0;
+  const double slope = 2.0 * kShares[0] * mass / (kSandDensity * breadth * distance * distance);
+  return tip - c.grain / slope;
 }
 
 template <int Dim>
-Deposit measure(const Points<Dim>& p, const DryColumn& c, double height, double cell) {
+Deposit measure(const Points<Dim>& p, const DryColumn& c, double cell) {
   std::vector<Place> places;
   double top = 0.0;
   for (std::size_t q = 0; q < p.size(); ++q) {
@@ -104,8 +103,7 @@ Deposit measure(const Points<Dim>& p, const DryColumn& c, double height, double 
     places.push_back({at, p.mass[q]});
     if (at < cell) top = std::max(top, p.x[Dim - 1][q] + 0.25 * cell);
   }
-  const double end = edge(places, c, std::min(height, c.length), c.grain);
-  return {fronts(places).q995 / c.length - 1.0, end / c.length - 1.0, top / c.length};
+  return {fronts(places).q995 / c.length - 1.0, edge(places, c) / c.length - 1.0, top / c.length};
 }
 
 template <int Dim>
@@ -139,7 +137,7 @@ Deposit run(DryColumn c, int cells) {
     peak = std::max(peak, now);
     if (now < kQuiet * peak) break;
   }
-  Deposit deposit = measure(s.points, c, height, cell);
+  Deposit deposit = measure(s.points, c, cell);
   deposit.motion = now / peak;
   return deposit;
 }

@@ -8,7 +8,7 @@ namespace flowslide::mpm {
 enum class Shape { plane, channel, round };
 
 /// How the angle of friction measured on a slope or in a shear box, tan(phi) = shear over normal
-/// stress on the plane that slips, enters the law. docs/theory/mohr-coulomb.md, section 5
+/// stress on the plane that slips, enters the law. docs/theory/mohr-coulomb.md, section 4
 enum class Friction {
   rate,              ///< mu_i at rest: mu_s = tan(phi), with the rise of Jop et al. (2006)
   coulomb_plane,     ///< mohr_coulomb with the angle asin(tan(phi))
@@ -19,15 +19,16 @@ enum class Friction {
 struct DryColumn {
   Shape shape = Shape::plane;
   Friction law = Friction::rate;
-  double aspect = 1.0;         ///< height over length or radius
-  double length = 0.1;         ///< [m]
-  double width = 0.0;          ///< of the channel [m]
-  double friction = 0.0;       ///< tan of the angle measured [-]
-  double ground = kUnset;      ///< friction of the ground; unset: that of the grains [-]
-  double wall_friction = 0.0;  ///< of the channel's sides [-]
-  double grain = 0.0;          ///< [m]
-  double rise = 0.26;          ///< of friction in fast flow, and where half of it is reached, for
-  double inertial = 0.279;     ///< mu_i: glass beads, Jop et al. (2006)
+  double aspect = 1.0;           ///< height over length or radius
+  double length = 0.1;           ///< [m]
+  double width = 0.0;            ///< of the channel [m]
+  double friction = 0.0;         ///< tan of the angle measured [-]
+  double ground = kUnset;        ///< friction of the ground; unset: that of the grains [-]
+  double wall_friction = 0.0;    ///< of the channel's sides [-]
+  double grain = 0.0;            ///< [m]
+  double rise = 0.26;            ///< of friction in fast flow, and where half of it is reached, for
+  double inertial = 0.279;       ///< mu_i: glass beads, Jop et al. (2006)
+  double lode_dependence = 1.0;  ///< for mu_i
   double poisson_ratio = 0.3;
   Transfer transfer = Transfer::aflip;
   BasisKind basis = BasisKind::quadratic;
@@ -48,7 +49,7 @@ inline constexpr double kQuiet = 1e-3;
 /// What is left when all is at rest, lengths over the first length.
 struct Deposit {
   double front = 0.0;   ///< beyond it lies 0.5 % of the mass; past the first length
-  double edge = 0.0;    ///< where the deposit is as thin as a grain; past the first length
+  double edge = 0.0;    ///< where it is as thin as a grain; past the first length
   double height = 0.0;  ///< at the wall or axis
   double motion = 0.0;  ///< kinetic energy that is left, of the largest: at rest below kQuiet
 };
