@@ -2,6 +2,7 @@
 #include "cli/terminal.hpp"
 #include "cli/usage.hpp"
 #include "config/yaml.hpp"
+#include "constitutive/point_config.hpp"
 #include "constitutive/point_fit.hpp"
 #include "core/check.hpp"
 #include "core/files.hpp"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -88,7 +90,8 @@ void find_parameter(PointOptions& options) {
     auto config = read_settings<PointConfig>(trial, "");
     config.simple_shear->stop_strain = target.strain;
     config.simple_shear->max_cycles = cycles_needed(target);
-    return cycles_of(drive(trial, config, options.file), target.strain);
+    return cycles_to_strain(drive(trial, config, options.file).rows, target.strain)
+        .value_or(std::numeric_limits<double>::infinity());
   });
   const std::string value = fmt::format("{:.4g}", found.value);
   const std::string strain = fmt::format("{:g} % of shear strain", 100.0 * target.strain);

@@ -14,8 +14,6 @@ namespace {
 /// Voigt index of xx, yy, xy.
 constexpr std::array<int, 3> kComponent{0, 1, 3};
 constexpr int kMaxIterations = 60;
-/// gamma is a sum of many increments and misses round numbers by their rounding.
-constexpr double kSumSlack = 1e-6;
 constexpr int kMaxHalvings = 8;
 
 Eigen::Matrix3d elastic_matrix(const Elasticity& e) {
@@ -195,13 +193,6 @@ ShearTest run_simple_shear(PointUnderTest& point, const SimpleShear& test) {
     }
   }
   return r;
-}
-
-std::optional<double> cycles_to_strain(const ShearTest& test, double strain) {
-  const double reached = strain * (1.0 - kSumSlack);
-  for (const ShearRecord& r : test.records)
-    if (std::abs(r.gamma) >= reached) return 0.5 * r.half_cycles;
-  return std::nullopt;
 }
 
 double pore_pressure_ratio(const ShearTest& test, std::size_t record) {

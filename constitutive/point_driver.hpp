@@ -1,6 +1,7 @@
 #pragma once
 #include "constitutive/concept.hpp"
 
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -64,6 +65,9 @@ StrainIncrement<2> mixed_step(PointUnderTest& point, const std::array<Prescribed
 StrainIncrement<2> divided_step(PointUnderTest& point, const std::array<Prescribed, 3>& step,
                                 double tolerance);
 
+/// Strains are sums of steps: what they may be short of a round number, relative.
+inline constexpr double kSumSlack = 1e-6;
+
 /// Every step of a test is kept.
 inline constexpr std::size_t kMostPointSteps = 20'000'000;
 
@@ -101,7 +105,12 @@ ShearTest run_simple_shear(PointUnderTest& point, const SimpleShear& test);
 
 /// Cycles, counted in halves by reversals, before |gamma| first reaches `strain`; empty if it never
 /// does.
-std::optional<double> cycles_to_strain(const ShearTest& test, double strain);
+template <class Record>
+std::optional<double> cycles_to_strain(const std::vector<Record>& records, double strain) {
+  for (const Record& r : records)
+    if (std::abs(r.gamma) >= strain * (1.0 - kSumSlack)) return 0.5 * r.half_cycles;
+  return std::nullopt;
+}
 
 /// r_u = 1 - sigma'_v/sigma'_v0 of a record.
 double pore_pressure_ratio(const ShearTest& test, std::size_t record);

@@ -87,13 +87,6 @@ std::optional<Bracket> find_bracket(double start, Trials& trials) {
 
 }  // namespace
 
-double cycles_of(const PointReport& report, double strain) {
-  const double reached = strain * (1.0 - 1e-6);  // strains are sums of steps
-  for (const PointRow& row : report.rows)
-    if (std::abs(row.gamma) >= reached) return 0.5 * row.half_cycles;
-  return std::numeric_limits<double>::infinity();
-}
-
 PointFit fit_to_cycles(double start, double target, const std::function<double(double)>& cycles) {
   Trials trials(target, cycles);
   const std::optional<Bracket> found = find_bracket(start, trials);

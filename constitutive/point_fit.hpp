@@ -12,10 +12,6 @@ struct CyclicTarget {
   double strain = 0.03;
 };
 
-/// Cycles of a test, counted in halves by reversals, until its shear strain first reaches `strain`;
-/// infinite if it never does.
-double cycles_of(const PointReport& report, double strain);
-
 struct PointFit {
   double value;   ///< four digits
   double cycles;  ///< with it: `target` or, where they jump, more

@@ -154,7 +154,7 @@ void add_shear_facts(const ShearTest& test, const PointShear& shear, bool cyclic
   }
   for (const double strain : {0.01, 0.03, 0.05})
     if (strain <= shear.stop_strain * (1.0 + 1e-6)) {
-      const auto n = cycles_to_strain(test, strain);
+      const auto n = cycles_to_strain(test.records, strain);
       add(fmt::format("cycles to {:.0f} % strain", 100.0 * strain),
           n ? fmt::format("{:.1f}", *n) : std::string("not reached"));
     }

@@ -137,6 +137,12 @@ TEST_CASE("Grains with hardly any friction keep what little they have", "[consti
   CHECK(MuI::lode_factor(c, 1.0, -MuI::kMostLode) == Approx(1.264).epsilon(1e-3));
   CHECK(MuI::lode_factor(c, 1.0, MuI::kMostLode) == Approx(0.890).epsilon(1e-3));
   CHECK(MuI::lode_factor(c, 0.0, 0.0) == 1.0);
+  // no grains have the friction from which the surface is all but a triangle
+  p.mu_static = 0.95;
+  p.mu_limit = 1.0;
+  CHECK_THROWS_WITH(check(p), Catch::Contains("72 degrees") && Catch::Contains("lode_dependence"));
+  p.lode_dependence = 0.0;
+  CHECK_NOTHROW(check(p));
 }
 
 TEST_CASE("Grains that have parted carry nothing, sheared or pressed for a step",
